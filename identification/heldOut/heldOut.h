@@ -1,7 +1,7 @@
 #pragma once
 
 #include "emulator/library.h"
-#include "heldOut/scores.h"
+#include "heldOut/predictive.h"
 #include "decision/answer.h"
 #include "study/measurements.h"
 
@@ -29,6 +29,7 @@ struct HeldOutResult
     Estimate improvement;              // rms error before minus after
     double noiseFloor = 0.0;           // expected rms error from noise alone
     double oneMoreAmplitude = 0.0;     // fitted size of control 1
+    bool ofLogs = true;                // whether rms errors are those of logarithms, which are relative
     bool better = false;
     bool complete = false;
     std::vector<std::string> notBetterBecause;

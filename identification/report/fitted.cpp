@@ -13,6 +13,13 @@ namespace clepsydra::identification
 namespace
 {
 
+using Json = nlohmann::ordered_json;
+
+Json unitJson(const std::string& name, double siUnits)
+{
+    return {{"unit", name}, {"si", siUnits}};
+}
+
 /// All entries of a run that are numbers.
 Expression::Variables numbersAt(const StudySimulator& studySimulator, std::size_t condition, const Setting& setting)
 {
@@ -23,26 +30,18 @@ Expression::Variables numbersAt(const StudySimulator& studySimulator, std::size_
 std::size_t shownCondition(const Study& study, const Effect* effect)
 {
     const auto trained = study.conditionsOf(Role::training);
-    for (const auto c : trained)
-    {
-        if (effect == nullptr || acts(*effect, study.conditions[c]))
-        {
-            return c;
-        }
-    }
-    return trained.front();
+    const auto shown = std::find_if(trained.begin(), trained.end(),
+        [&](std::size_t c) { return effect == nullptr || acts(*effect, study.conditions[c]); });
+    return shown == trained.end() ? trained.front() : *shown;
 }
 
 /// Standard errors of the physical values of an explanation's parameters.
 Eigen::VectorXd parameterErrors(const Study& study, const Explanation& explanation)
 {
     const Eigen::MatrixXd& covariance = explanation.fits.front().marginal;
-    Eigen::VectorXd errors = Eigen::VectorXd::Zero(study.parameters.size());
-    for (Eigen::Index i = 0; i < covariance.rows(); ++i)
-    {
-        errors(i) = std::sqrt(covariance(i, i)) * study.parameters[i].sd;
-    }
-    return errors;
+    return Eigen::VectorXd::NullaryExpr(study.parameters.size(), [&](Eigen::Index i) {
+        return i < covariance.rows() ? std::sqrt(covariance(i, i)) * study.parameters[i].sd : 0.0;
+    });
 }
 
 /// An amplitude changed by its error towards 0, where the formulas are certainly defined.
@@ -84,32 +83,31 @@ double sizeOfChain(const Effect& effect, double amplitude)
 
 } // namespace
 
-std::vector<FittedNumber> fittedNumbers(const Findings& findings)
+Json fittedNumbers(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Explanation& null = findings.answer->null;
     const Explanation* best = findings.answer->set.empty() ? nullptr : &findings.answer->set.front();
-    std::vector<FittedNumber> all;
-    const auto add = [&](const std::string& name, const std::string& unit, const std::optional<Estimate>& prior,
-                         const std::string& from, auto estimateAt) {
-        all.push_back({name, unit, prior, from, estimateAt(null), {}});
-        if (best != nullptr)
-        {
-            all.back().after = estimateAt(*best);
-        }
+    Json all = Json::array();
+    const auto add = [&](const std::string& name, const std::string& unit, auto estimateAt) {
+        all.push_back({{"name", name}, {"unit", unit}, {"independent", nullptr}, {"assumed", nullptr},
+            {"from", nullptr}, {"withoutEffect", estimateAt(null)},
+            {"withEffect", best == nullptr ? Json() : Json(estimateAt(*best))}});
     };
     const auto addEntry = [&](const std::string& entry, const Effect* effect) {
-        add(entry, "", {}, "", [&](const Explanation& explanation) {
+        add(entry, "", [&](const Explanation& explanation) {
             return entryAt(*findings.studySimulator, shownCondition(study, effect), entry, explanation);
         });
     };
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
         const Parameter& parameter = study.parameters[p];
-        add(parameter.name, parameter.unit, Estimate{parameter.mean, parameter.sd}, nameOf(parameter.from),
-            [&](const Explanation& explanation) {
-                return Estimate{explanation.setting.parameters(p), parameterErrors(study, explanation)(p)};
-            });
+        add(parameter.name, parameter.unit, [&](const Explanation& explanation) {
+            return Estimate{explanation.setting.parameters(p), parameterErrors(study, explanation)(p)};
+        });
+        all.back()[parameter.from == Origin::measured ? "independent" : "assumed"] =
+            Estimate{parameter.mean, parameter.sd};
+        all.back()["from"] = nameOf(parameter.from);
         for (const auto& [entry, formula] : parameter.entries)
         {
             if (formula.text() != parameter.name)
@@ -126,8 +124,9 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
             const double amplitude = best->setting.amplitudes(best->effects[k]);
             const double size = sizeOfChain(effect, amplitude);
             const double moved = sizeOfChain(effect, movedInwards(amplitude, best->fits[k].sd));
-            all.push_back({effect.chainOperation, chainOperations().at(effect.chainOperation).unit, {}, "", {0.0, 0.0},
-                Estimate{size, std::abs(moved - size)}});
+            add(effect.chainOperation, chainOperations().at(effect.chainOperation).unit, [&](const Explanation& one) {
+                return &one == best ? Estimate{size, std::abs(moved - size)} : Estimate{};
+            });
         }
         for (const auto& [entry, formula] : effect.entries)
         {
@@ -135,6 +134,29 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
         }
     }
     return all;
+}
+
+Json unitsOf(const Study& study)
+{
+    Json units = Json::object();
+    for (const auto& condition : study.conditions)
+    {
+        const auto& [files, time, value, numbers] = condition.measured;
+        for (const auto& feature : files.empty() ? std::vector<Feature>{} : study.features)
+        {
+            const Dimension dimension = feature.kind->dimension;
+            units[feature.name] = dimension == Dimension::value  ? unitJson(value.unit, value.siUnits)
+                                  : dimension == Dimension::time ? unitJson(time.unit, time.siUnits)
+                                  : dimension == Dimension::rate
+                                      ? unitJson(value.unit + '/' + time.unit, value.siUnits / time.siUnits)
+                                      : unitJson("1", 1.0);
+        }
+        for (const auto& number : numbers)
+        {
+            units[study.features[number.feature].name] = unitJson(number.unit, number.siUnits);
+        }
+    }
+    return units;
 }
 
 std::string endOfRange(double value, double error, const Bounds& range)

@@ -1,30 +1,23 @@
 #pragma once
 
-#include "heldOut/scores.h"
-#include "report/findings.h"
+#include "heldOut/predictive.h"
+#include "report/report.h"
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace clepsydra::identification
 {
 
-/// A quantity fitted to the measurements, in the units of the user's case.
-struct FittedNumber
-{
-    std::string name;              // of a parameter, an entry of the case, or an operation of the measuring chain
-    std::string unit;              // empty if it is not known
-    std::optional<Estimate> prior; // of a parameter
-    std::string from;              // origin of the prior: measured, handbook or guess
-    Estimate before;               // without an effect
-    std::optional<Estimate> after; // with the best explanation
-};
+/// The quantities fitted to the measurements, in the units of the user's case: the parameters, the entries that follow
+/// from them by a formula, and the entries or operations that the best explanation sets, in the first condition in which
+/// it acts. They are `fitted` of report.json.
+nlohmann::ordered_json fittedNumbers(const Findings& findings);
 
-/// The parameters, the entries that follow from them by a formula, and the entries that the best explanation sets in
-/// the first condition in which it acts.
-std::vector<FittedNumber> fittedNumbers(const Findings& findings);
+/// Units in which the features were measured, and their sizes in SI units, by name of the feature: `units` of
+/// report.json.
+nlohmann::ordered_json unitsOf(const Study& study);
 
 /// Which end of its range a fitted value has reached: "lower", "upper", or empty.
 /// \param error  standard error; a value that is bounded by the range lies about one of it away from the end

@@ -28,48 +28,41 @@ constexpr double deviations95 = 1.96; // half width of a 95 % interval
 //--- Curves ---------------------------------------------------------------------------------------------------------
 
 /// Draws the mean and the range of simulated curves of a condition.
-void drawRuns(Plot& plot, const Condition& condition, const std::vector<const Curve*>& curves,
+void drawRuns(Plot& plot, const Study& study, std::size_t condition, const std::vector<Simulation>& simulations,
     const std::string& colour, const std::string& label)
 {
-    if (curves.empty())
-    {
-        return;
-    }
     constexpr int points = 80;
     double begin = std::numeric_limits<double>::infinity();
     double end = 0.0;
-    for (const auto* curve : curves)
-    {
-        begin = std::min(begin, curve->time.front());
-        end = std::max(end, curve->time.back());
-    }
-    const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(points, begin, end);
-    Eigen::ArrayXXd values(points, curves.size());
-    for (Eigen::Index c = 0; c < values.cols(); ++c)
-    {
-        values.col(c) = time.unaryExpr([&](double t) { return valueAt(*curves[c], t); });
-    }
-    values /= condition.measured.value.siUnits;
-    const Eigen::ArrayXd shown = time / condition.measured.time.siUnits;
-    Eigen::ArrayXd around(2 * points);
-    Eigen::ArrayXd band(2 * points);
-    around << shown, shown.reverse();
-    band << values.rowwise().minCoeff(), values.rowwise().maxCoeff().reverse();
-    plot.line(around, band, "fill:" + colour + ";fill-opacity:.18;stroke:none");
-    plot.line(shown, values.rowwise().mean(), "fill:none;stroke:" + colour, label);
-}
-
-std::vector<const Curve*> curvesOf(const std::vector<Simulation>& simulations, std::size_t condition)
-{
     std::vector<const Curve*> curves;
     for (const auto& one : simulations)
     {
         if (one.condition == condition && one.curve.time.size() > 1)
         {
             curves.push_back(&one.curve);
+            begin = std::min(begin, one.curve.time.front());
+            end = std::max(end, one.curve.time.back());
         }
     }
-    return curves;
+    if (curves.empty())
+    {
+        return;
+    }
+    const Measurement& measured = study.conditions[condition].measured;
+    const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(points, begin, end);
+    Eigen::ArrayXXd values(points, curves.size());
+    for (Eigen::Index c = 0; c < values.cols(); ++c)
+    {
+        values.col(c) = time.unaryExpr([&](double t) { return valueAt(*curves[c], t); });
+    }
+    values /= measured.value.siUnits;
+    const Eigen::ArrayXd shown = time / measured.time.siUnits;
+    Eigen::ArrayXd around(2 * points);
+    Eigen::ArrayXd band(2 * points);
+    around << shown, shown.reverse();
+    band << values.rowwise().minCoeff(), values.rowwise().maxCoeff().reverse();
+    plot.line(around, band, "fill:" + colour + ";fill-opacity:.18;stroke:none");
+    plot.line(shown, values.rowwise().mean(), "fill:none;stroke:" + colour, label);
 }
 
 /// Measured curves, and simulated curves without an effect and with the best explanation.
@@ -83,11 +76,6 @@ std::string curvePlots(const Study& study, const std::vector<std::size_t>& condi
     std::string html = "<div class=\"plots\">";
     for (const auto c : conditions)
     {
-        const auto without = curvesOf(before, c);
-        if (without.empty() && measured[c].curves.empty())
-        {
-            continue;
-        }
         const Condition& condition = study.conditions[c];
         const auto& [files, time, value, numbers] = condition.measured;
         Plot plot{condition.name, time.unit.empty() ? "time [s]" : label("time", time.unit),
@@ -100,9 +88,12 @@ std::string curvePlots(const Study& study, const std::vector<std::size_t>& condi
             plot.line(Values(curve.time.data(), size) / time.siUnits, Values(curve.value.data(), size) / value.siUnits,
                 "fill:none;stroke:#999;stroke-width:3", "measured");
         }
-        drawRuns(plot, condition, without, red, "without effect");
-        drawRuns(plot, condition, curvesOf(after, c), blue, afterName);
-        html += plot.svg();
+        drawRuns(plot, study, c, before, red, "without effect");
+        if (!plot.lines.empty())
+        {
+            drawRuns(plot, study, c, after, blue, afterName);
+            html += plot.svg();
+        }
     }
     return html + "</div>\n";
 }
@@ -124,18 +115,14 @@ void drawEstimate(Plot& plot, const Json& estimate, double unit, double y, const
     }
 }
 
-/// Unit in which a feature was measured; SI units where the report does not give it.
-Json unitOf(const Json& report, const std::string& feature)
-{
-    return report.value("units", Json::object()).value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
-}
-
-/// Numbers of the report with their units, and in these units.
+/// Numbers of the report with the units in which they were measured, and in these units; in SI units where the report
+/// does not give them.
 Json inUnits(const Json& report, Json numbers)
 {
     for (auto& row : numbers)
     {
-        const Json unit = unitOf(report, row.at("feature"));
+        const Json unit = report.value("units", Json::object())
+                              .value(row.at("feature").get<std::string>(), Json{{"unit", "SI units"}, {"si", 1.0}});
         row["unit"] = unit.at("unit");
         for (const auto* key : {"measured", "before", "after"})
         {
@@ -178,8 +165,7 @@ std::string numberCharts(const Json& report, const Json& numbers, const std::str
 /// Errors of the predictions that are compared on held-out conditions.
 std::string errorChart(const Json& heldOut)
 {
-    std::vector<std::string> labels;
-    std::vector<Json> errors;
+    Plot plot{"Error (root mean square) on held-out conditions [%], 95 % intervals"};
     for (const auto& [key, label] : {std::pair("before", "without an effect"), std::pair("after", "with the effect"),
              std::pair("nearest", "with the nearest effect"),
              std::pair("oneMoreParameter", "one more free parameter instead"),
@@ -187,14 +173,11 @@ std::string errorChart(const Json& heldOut)
     {
         if (const Json score = heldOut.value(key, Json()); score.is_object())
         {
-            errors.push_back({{"value", score.at("rmsLogError")}, {"standardError", score.at("standardError")}});
-            labels.push_back(label + (": " + rounded(100.0 * numberOr(score.at("rmsLogError"), std::nan("")))) + " %");
+            const Json& error = score.at("rmsLogError");
+            plot.rows.push_back(label + (": " + rounded(100.0 * numberOr(error, std::nan("")))) + " %");
+            drawEstimate(plot, {{"value", error}, {"standardError", score.at("standardError")}}, 0.01,
+                static_cast<double>(plot.rows.size()) - 0.5, blue, "");
         }
-    }
-    Plot plot{"Error (root mean square) on held-out conditions [%], 95 % intervals", {}, {}, labels};
-    for (std::size_t i = 0; i < errors.size(); ++i)
-    {
-        drawEstimate(plot, errors[i], 0.01, static_cast<double>(i) + 0.5, blue, "");
     }
     return plot.svg();
 }

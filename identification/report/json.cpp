@@ -14,6 +14,17 @@
 namespace clepsydra::identification
 {
 
+void to_json(nlohmann::ordered_json& json, const LogRatio& ratio)
+{
+    json = {{"logRatio", ratio.value}, {"pValue", ratio.pValue}};
+}
+
+void to_json(nlohmann::ordered_json& json, const HeldOutScore& score)
+{
+    json = {{"rmsLogError", score.rmsLogError.value}, {"standardError", score.rmsLogError.standardError},
+        {"chiSquare", score.chiSquare}, {"pValue", score.pValue}, {"overNull", score.overNull}};
+}
+
 namespace
 {
 
@@ -24,26 +35,10 @@ std::vector<double> numbers(const Eigen::VectorXd& values)
     return {values.begin(), values.end()};
 }
 
-Json estimate(const Estimate& value)
-{
-    return {{"value", value.value}, {"standardError", value.standardError}};
-}
-
-Json logRatioJson(const LogRatio& ratio)
-{
-    return {{"logRatio", ratio.value}, {"pValue", ratio.pValue}};
-}
-
-Json heldOutScore(const HeldOutScore& score)
-{
-    return {{"rmsLogError", score.rmsLogError.value}, {"standardError", score.rmsLogError.standardError},
-        {"chiSquare", score.chiSquare}, {"pValue", score.pValue}, {"overNull", logRatioJson(score.overNull)}};
-}
-
 template<class Value>
-Json orNull(const std::optional<Value>& value, Json (*jsonOf)(const Value&))
+Json orNull(const std::optional<Value>& value)
 {
-    return value ? jsonOf(*value) : Json(nullptr);
+    return value ? Json(*value) : Json();
 }
 
 Json parametersOf(const Study& study, const Eigen::VectorXd& values)
@@ -84,22 +79,8 @@ Json measuredJson(const Effect& effect, const EffectFinding& finding)
         return nullptr;
     }
     const auto& [mean, sd] = *effect.measured;
-    return {{"mean", mean}, {"sd", sd}, {"fittedWithout", estimate({finding.alone->amplitude, finding.alone->sd})},
+    return {{"mean", mean}, {"sd", sd}, {"fittedWithout", Estimate{finding.alone->amplitude, finding.alone->sd}},
         {"agrees", *agrees}};
-}
-
-/// The nearest effect of a residual that none explains.
-Json nearestJson(const Findings& findings)
-{
-    const auto& nearest = findings.answer->nearest;
-    if (!nearest)
-    {
-        return nullptr;
-    }
-    Json json = explanationJson(*findings.study, *nearest);
-    json["takes"] = shareTaken(*findings.answer, *nearest);
-    json["left"] = 1.0 - shareTaken(*findings.answer, *nearest);
-    return json;
 }
 
 /// Entries or operation of an effect at an amplitude; formulas are given as text.
@@ -114,10 +95,7 @@ Json entriesAt(const Effect& effect, double amplitude)
     {
         json[entry] = formula.text();
     }
-    for (const auto& [entry, text] : effect.textEntries)
-    {
-        json[entry] = text;
-    }
+    json.update(effect.textEntries);
     return json;
 }
 
@@ -161,7 +139,7 @@ Json residualJson(const Findings& findings)
         {
             list.push_back({{"condition", condition}, {"measuredMinusSimulated", Json::object()}});
         }
-        list.back()["measuredMinusSimulated"][study.features[residual.feature].name] = estimate(residual.estimate);
+        list.back()["measuredMinusSimulated"][study.features[residual.feature].name] = residual.estimate;
     }
     return list;
 }
@@ -169,8 +147,7 @@ Json residualJson(const Findings& findings)
 /// An estimate of a feature as the quantity itself, where the feature is a logarithm.
 Json quantity(const Feature& feature, const Estimate& value)
 {
-    return feature.kind->isLog() ? estimate({std::exp(value.value), std::exp(value.value) * value.standardError})
-                                 : estimate(value);
+    return feature.kind->isLog() ? Estimate{std::exp(value.value), std::exp(value.value) * value.standardError} : value;
 }
 
 Json rowOf(const Condition& condition, const Feature& feature, const Estimate& measured, const Estimate& before,
@@ -196,55 +173,6 @@ Json trainingNumbers(const Findings& findings)
     return list;
 }
 
-/// Unit of a feature of measured curves, and its size in SI units.
-Json unitOfCurves(const FeatureKind& kind, const Measurement& measured)
-{
-    const auto& [files, time, value, numbers] = measured;
-    switch (kind.dimension)
-    {
-        case Dimension::value:
-            return {{"unit", value.unit}, {"si", value.siUnits}};
-        case Dimension::time:
-            return {{"unit", time.unit}, {"si", time.siUnits}};
-        case Dimension::rate:
-            return {{"unit", value.unit + '/' + time.unit}, {"si", value.siUnits / time.siUnits}};
-        default:
-            return {{"unit", "1"}, {"si", 1.0}};
-    }
-}
-
-/// Units in which features were measured, and their sizes in SI units.
-Json unitsJson(const Study& study)
-{
-    Json units = Json::object();
-    for (const auto& condition : study.conditions)
-    {
-        if (!condition.measured.files.empty())
-        {
-            for (const auto& feature : study.features)
-            {
-                units[feature.name] = unitOfCurves(*feature.kind, condition.measured);
-            }
-        }
-        for (const auto& number : condition.measured.numbers)
-        {
-            units[study.features[number.feature].name] = {{"unit", number.unit}, {"si", number.siUnits}};
-        }
-    }
-    return units;
-}
-
-Json fittedJson(const Findings& findings)
-{
-    return mapped(fittedNumbers(findings), [](const FittedNumber& number) -> Json {
-        const bool isMeasured = number.from == nameOf(Origin::measured);
-        return {{"name", number.name}, {"unit", number.unit},
-            {"independent", isMeasured ? orNull(number.prior, estimate) : Json(nullptr)},
-            {"assumed", isMeasured ? Json(nullptr) : orNull(number.prior, estimate)}, {"from", textOrNull(number.from)},
-            {"withoutEffect", estimate(number.before)}, {"withEffect", orNull(number.after, estimate)}};
-    });
-}
-
 /// Measured and predicted features of the held-out conditions. Logarithms are converted into the quantities themselves.
 Json heldOutNumbers(const Study& study, const HeldOutResult& result)
 {
@@ -252,20 +180,20 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
     for (std::size_t i = 0; i < result.conditions.size(); ++i)
     {
         const HeldOutData& data = result.data[i];
-        const Eigen::VectorXd measured = meanFeatures(data.features);
         const Eigen::VectorXd error =
             (result.predictedBefore[i].dataCovariance.cwiseProduct(data.meanShare).diagonal() + data.declaredVariance)
                 .cwiseSqrt();
         for (std::size_t f = 0; f < study.features.size(); ++f)
         {
-            if (!std::isfinite(measured(f)))
+            if (!std::isfinite(data.mean(f)))
             {
                 continue;
             }
             const auto predicted = [&](const Prediction& prediction) {
-                return Estimate{prediction.mean(f), std::sqrt(prediction.variance(f) + data.commonVariance(f))};
+                return Estimate{
+                    prediction.mean(f), std::sqrt(prediction.variance(f) + data.errorSlopes.row(f).squaredNorm())};
             };
-            list.push_back(rowOf(study.conditions[result.conditions[i]], study.features[f], {measured(f), error(f)},
+            list.push_back(rowOf(study.conditions[result.conditions[i]], study.features[f], {data.mean(f), error(f)},
                 predicted(result.predictedBefore[i]),
                 result.predictedAfter.empty() ? std::nullopt : std::optional(predicted(result.predictedAfter[i]))));
         }
@@ -285,7 +213,7 @@ Json heldOutJson(const Findings& findings)
     Json members = Json::array();
     for (std::size_t i = 0; i < result.members.size(); ++i)
     {
-        members.push_back(heldOutScore(result.members[i]));
+        members.push_back(result.members[i]);
         members.back()["name"] = nameOf(study, findings.answer->set[i].effects);
     }
     if (result.conditions.empty())
@@ -293,14 +221,14 @@ Json heldOutJson(const Findings& findings)
         return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"nearest", nullptr},
             {"oneMoreParameter", nullptr}, {"gaussianProcess", nullptr}, {"better", false}, {"complete", false}};
     }
-    Json oneMore = heldOutScore(result.oneMoreParameter);
+    Json oneMore = result.oneMoreParameter;
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
-    return {{"conditions", names}, {"before", heldOutScore(result.before)},
-        {"after", orNull(result.after, heldOutScore)}, {"nearest", orNull(result.nearest, heldOutScore)},
-        {"oneMoreParameter", oneMore}, {"gaussianProcess", orNull(result.gaussianProcess, heldOutScore)},
-        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", logRatioJson(result.overOneMore)},
-        {"overGaussianProcess", result.gaussianProcess ? logRatioJson(result.overGaussianProcess) : Json(nullptr)},
+    return {{"conditions", names}, {"before", result.before}, {"after", orNull(result.after)},
+        {"nearest", orNull(result.nearest)}, {"oneMoreParameter", oneMore},
+        {"gaussianProcess", orNull(result.gaussianProcess)}, {"improvement", result.improvement},
+        {"overOneMoreParameter", result.overOneMore},
+        {"overGaussianProcess", result.gaussianProcess ? Json(result.overGaussianProcess) : Json(nullptr)},
         {"noiseFloor", result.noiseFloor}, {"better", result.better}, {"complete", result.complete},
         {"notBetterBecause", result.notBetterBecause}, {"notScored", result.notScored}, {"members", members},
         {"numbers", heldOutNumbers(study, result)}};
@@ -368,20 +296,6 @@ Json emulatorJson(const Findings& findings)
         {"scatterTimes", scatter}};
 }
 
-Json calibrationJson(const Findings& findings)
-{
-    const Study& study = *findings.study;
-    const Answer& answer = *findings.answer;
-    const Json pairs = mapped(answer.visibility.alike, [&](const auto& pair) {
-        return std::vector<std::string>{study.effects[pair.first].name, study.effects[pair.second].name};
-    });
-    return {{"critical", answer.calibration.critical}, {"level", study.settings.level}, {"draws", study.settings.draws},
-        {"coverage", study.settings.coverage}, {"wrongNamesAllowed", study.settings.wrongNames},
-        {"wrongNamesOfDecoys", answer.calibration.wrongNames},
-        {"decoys", "each effect of the library left out in turn; patterns of any shape, orthogonal to the parameters"},
-        {"lookAlikes", pairs}};
-}
-
 } // namespace
 
 Json jsonOf(const Findings& findings)
@@ -393,10 +307,11 @@ Json jsonOf(const Findings& findings)
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
     json["name"] = answer.decision == Decision::named ? Json(namedBy(study, answer)) : Json(nullptr);
-    json["summary"] = sentenceOf(findings);
-    json["details"] = detailsOf(findings);
-    json["fitted"] = fittedJson(findings);
-    json["measureNext"] = nextOf(findings);
+    const auto& [summary, details, next, assumptions] = sentencesOf(findings);
+    json["summary"] = summary;
+    json["details"] = details;
+    json["fitted"] = fittedNumbers(findings);
+    json["measureNext"] = next;
     json["set"] = mapped(answer.set, [&](const Explanation& each) { return explanationJson(study, each); });
     json["family"] = answer.family;
     json["somethingElseInSet"] = answer.unlistedCauseInSet;
@@ -406,7 +321,12 @@ Json jsonOf(const Findings& findings)
     json["oddsOfName"] = answer.oddsOfName
                              ? Json{{"logOdds", answer.oddsOfName->first}, {"needed", answer.oddsOfName->second}}
                              : Json(nullptr);
-    json["nearest"] = nearestJson(findings);
+    json["nearest"] = answer.nearest ? explanationJson(study, *answer.nearest) : Json();
+    if (answer.nearest)
+    {
+        json["nearest"]["takes"] = shareTaken(answer, *answer.nearest);
+        json["nearest"]["left"] = 1.0 - shareTaken(answer, *answer.nearest);
+    }
     json["pValue"] = answer.pValue;
     json["logOdds"] = answer.logOdds;
     json["null"] = explanationJson(study, answer.null);
@@ -414,14 +334,20 @@ Json jsonOf(const Findings& findings)
     json["effects"] = effectsJson(findings);
     json["residual"] = residualJson(findings);
     json["numbers"] = trainingNumbers(findings);
-    json["units"] = unitsJson(study);
+    json["units"] = unitsOf(study);
     json["heldOut"] = heldOutJson(findings);
-    json["calibration"] = calibrationJson(findings);
+    json["calibration"] = {{"critical", answer.calibration.critical}, {"level", study.settings.level},
+        {"draws", study.settings.draws}, {"coverage", study.settings.coverage},
+        {"wrongNamesAllowed", study.settings.wrongNames}, {"wrongNamesOfDecoys", answer.calibration.wrongNames},
+        {"decoys", "each effect of the library left out in turn; patterns of any shape, orthogonal to the parameters"}};
+    json["calibration"]["lookAlikes"] = mapped(answer.visibility.alike, [&](const auto& pair) {
+        return std::vector<std::string>{study.effects[pair.first].name, study.effects[pair.second].name};
+    });
     json["nextExperiment"] = nextJson(findings);
     json["emulator"] = emulatorJson(findings);
     json["runs"] = runsJson(*findings.studySimulator);
     json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.studySimulator->effort().seedsByPurpose}};
-    json["assumptions"] = assumptionsOf(findings);
+    json["assumptions"] = assumptions;
     json["remarks"] = answer.remarks;
     return Json::parse(json.dump()); // NaN and infinity, which JSON does not have, have become null
 }

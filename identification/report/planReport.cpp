@@ -17,9 +17,7 @@ namespace
 
 std::string amplitude(double value, const Effect& effect)
 {
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << value;
-    return std::isfinite(value) && value <= effect.bounds.reach() ? text.str() : "not in range";
+    return std::isfinite(value) && value <= effect.bounds.reach() ? formatted(value, std::fixed, 2) : "not in range";
 }
 
 /// Residual that effects leave when the parameters are fitted without them: root mean square over conditions and over

@@ -104,53 +104,28 @@ std::string largestOf(const Study& study, const std::vector<Residual>& residuals
            + "': measured minus simulated is " + errorText(feature.kind->isLog(), largest->estimate);
 }
 
-std::string inErrors(const std::vector<Residual>& residuals)
+/// The condition whose residual an explanation reduces most, in units of the standard errors; null if there is only one.
+Json decidingCondition(const Study& study, const std::vector<Residual>& without, const std::vector<Residual>& with)
 {
-    return rounded(rmsInErrors(residuals));
-}
-
-/// The condition whose residual the explanation reduces most, in units of the standard errors.
-Json decidingCondition(const Findings& findings, const Explanation& best)
-{
-    const Study& study = *findings.study;
-    const auto without = residualsOf(findings, findings.answer->null.setting);
-    const auto with = residualsOf(findings, best.setting);
     std::map<std::size_t, std::pair<std::vector<Residual>, std::vector<Residual>>> byCondition;
-    for (std::size_t i = 0; i < without.size(); ++i)
+    for (std::size_t i = 0; i < with.size(); ++i)
     {
         byCondition[without[i].condition].first.push_back(without[i]);
         byCondition[without[i].condition].second.push_back(with[i]);
+    }
+    if (byCondition.size() < 2)
+    {
+        return nullptr;
     }
     const auto fall = [](const auto& one) {
         const auto& [before, after] = one.second;
         return (std::pow(rmsInErrors(before), 2) - std::pow(rmsInErrors(after), 2))
                * static_cast<double>(before.size());
     };
-    const auto decides = std::max_element(
+    const auto& [condition, residuals] = *std::max_element(
         byCondition.begin(), byCondition.end(), [&](const auto& a, const auto& b) { return fall(a) < fall(b); });
-    if (byCondition.size() < 2)
-    {
-        return nullptr;
-    }
-    return {{"condition", study.conditions[decides->first].name}, {"effect", nameOf(study, best.effects)},
-        {"from", inErrors(decides->second.first)}, {"to", inErrors(decides->second.second)}};
-}
-
-/// What the fit of the parameters alone does to the residual.
-Json parameterFacts(const Findings& findings, const Explanation* best)
-{
-    const Study& study = *findings.study;
-    Setting prior = findings.answer->null.setting;
-    for (std::size_t p = 0; p < study.parameters.size(); ++p)
-    {
-        prior.parameters(p) = study.parameters[p].mean;
-    }
-    const auto names = mapped(study.parameters, [](const Parameter& one) { return one.name; });
-    return {{"names", capitalised(joined(names, " and "))}, {"prior", inErrors(residualsOf(findings, prior))},
-        {"fitted", inErrors(residualsOf(findings, findings.answer->null.setting))},
-        {"best", best == nullptr ? Json(nullptr)
-                                 : Json{{"effect", nameOf(study, best->effects)},
-                                     {"residual", inErrors(residualsOf(findings, best->setting))}}}};
+    return {{"condition", study.conditions[condition].name}, {"from", rmsInErrors(residuals.first)},
+        {"to", rmsInErrors(residuals.second)}};
 }
 
 /// A measured size outside of the fitted interval would refute an effect.
@@ -184,13 +159,13 @@ Json doubtsOf(const Findings& findings)
         const EffectFinding& finding = findings.answer->effects[e];
         const auto agrees = agreesWithMeasurement(effect, finding);
         doubts.push_back({{"effect", effect.name}, {"capitalised", capitalised(effect.name)},
-            {"probability", percent(finding.probability)}, {"excluded", finding.notInSetBecause},
+            {"probability", finding.probability}, {"excluded", finding.notInSetBecause},
             {"containsZero", finding.inSet && !effect.isSwitch && finding.fit.lower <= 0.0 && finding.fit.upper >= 0.0},
             {"compared", nullptr}});
         if (finding.inSet && agrees)
         {
-            doubts.back()["compared"] = {{"measured", withError({effect.measured->mean, effect.measured->sd})},
-                {"alone", withError({finding.alone->amplitude, finding.alone->sd})}, {"agrees", *agrees}};
+            doubts.back()["compared"] = {{"measured", Estimate{effect.measured->mean, effect.measured->sd}},
+                {"alone", Estimate{finding.alone->amplitude, finding.alone->sd}}, {"agrees", *agrees}};
         }
     }
     return doubts;
@@ -221,8 +196,7 @@ Json heldOutFacts(const Findings& findings)
 {
     const Study& study = *findings.study;
     const HeldOutResult& heldOut = *findings.heldOut;
-    const bool isLog = std::any_of(
-        study.features.begin(), study.features.end(), [](const Feature& feature) { return feature.kind->isLog(); });
+    const bool isLog = heldOut.ofLogs;
     Json facts = {{"before", errorText(isLog, heldOut.before.rmsLogError)}, {"after", nullptr}, {"change", nullptr},
         {"oneMore", errorText(isLog, heldOut.oneMoreParameter.rmsLogError)},
         {"noiseFloor", sizeText(isLog, heldOut.noiseFloor)}, {"better", heldOut.better}, {"complete", heldOut.complete},
@@ -230,8 +204,7 @@ Json heldOutFacts(const Findings& findings)
         {"notScored", joined(heldOut.notScored, ", ")}};
     if (heldOut.nearest)
     {
-        facts["withNearest"] = {{"effect", nameOf(study, findings.answer->nearest->effects)},
-            {"error", errorText(isLog, heldOut.nearest->rmsLogError)}};
+        facts["withNearest"] = errorText(isLog, heldOut.nearest->rmsLogError);
     }
     if (!heldOut.after)
     {
@@ -251,7 +224,7 @@ Json heldOutFacts(const Findings& findings)
     facts["after"] = errorText(isLog, heldOut.after->rmsLogError);
     facts["change"] = changeText(isLog, heldOut);
     facts["compared"] = joined(compared, ", and ");
-    facts["left"] = pValueText(heldOut.after->pValue);
+    facts["left"] = heldOut.after->pValue;
     return facts;
 }
 
@@ -264,15 +237,20 @@ Json nextFacts(const Study& study, const NextExperiment& next)
     if (outcomes.size() == 1)
     {
         const auto& [name, probability, features, sd] = outcomes.front();
+        const Json units = unitsOf(study);
         std::vector<std::string> numbers;
         for (std::size_t f = 0; f < study.features.size(); ++f)
         {
             if (std::isfinite(features(f)))
             {
-                const bool isLog = study.features[f].kind->isLog();
-                const double value = isLog ? std::exp(features(f)) : features(f);
-                numbers.push_back(
-                    '\'' + study.features[f].name + "' " + withError({value, (isLog ? value : 1.0) * sd(f)}));
+                const Feature& feature = study.features[f];
+                const Json unit = units.value(feature.name, Json{{"unit", "(SI units)"}, {"si", 1.0}});
+                const double siUnits = unit.at("si").get<double>();
+                const bool isLog = feature.kind->isLog();
+                const double value = (isLog ? std::exp(features(f)) : features(f)) / siUnits;
+                const double error = isLog ? value * sd(f) : sd(f) / siUnits;
+                numbers.push_back('\'' + feature.name + "' " + withError({value, error})
+                                  + (unit.at("unit") == "1" ? "" : ' ' + unit.at("unit").get<std::string>()));
             }
         }
         facts["test"] = {{"predicted", joined(numbers, " and ")}};
@@ -311,66 +289,78 @@ Json hintsOf(const Findings& findings)
 /// Effects that these conditions can hardly distinguish from those that are named, by their names.
 std::vector<std::string> alikeTo(const Findings& findings)
 {
-    std::set<std::size_t> named;
-    for (const auto& member : findings.answer->set)
-    {
-        named.insert(member.effects.begin(), member.effects.end());
-    }
+    const auto isNamed = [&](std::size_t e) {
+        return std::any_of(findings.answer->set.begin(), findings.answer->set.end(),
+            [&](const Explanation& member) { return contains(member.effects, e); });
+    };
     std::set<std::size_t> alike;
     for (const auto& [one, other] : findings.answer->visibility.alike)
     {
-        if (named.count(one) != named.count(other))
+        if (isNamed(one) != isNamed(other))
         {
-            alike.insert(named.count(one) > 0 ? other : one);
+            alike.insert(isNamed(one) ? other : one);
         }
     }
-    return mapped(
-        std::vector(alike.begin(), alike.end()), [&](std::size_t e) { return findings.study->effects[e].name; });
+    return mapped(alike, [&](std::size_t e) { return findings.study->effects[e].name; });
 }
 
-/// What the sentences on the answer state.
-Json answerFacts(const Findings& findings)
+/// What the sentences state.
+Json factsOf(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
     const Explanation* best = bestOf(answer);
-    const std::string grade = gradeOf(findings);
+    const auto without = residualsOf(findings, answer.null.setting);
+    const auto with = best == nullptr ? std::vector<Residual>{} : residualsOf(findings, best->setting);
+    const bool predicts = answer.decision == Decision::named && findings.heldOut != nullptr && findings.heldOut->better;
+    const bool isConfirmed = predicts && std::all_of(best->effects.begin(), best->effects.end(), [&](std::size_t e) {
+        return agreesWithMeasurement(study.effects[e], answer.effects[e]).value_or(false);
+    });
     std::vector<std::string> causes =
         mapped(answer.set, [&](const Explanation& each) { return meaningOf(findings, each); });
     const std::string members = joined(causes, ", or ");
+    std::string probabilities;
+    for (std::size_t i = 0; i < causes.size(); ++i)
+    {
+        probabilities += causes[i] + ' ' + percent(answer.set[i].probability) + ", ";
+    }
     if (answer.unlistedCauseInSet || causes.size() == 1)
     {
         causes.emplace_back("a cause that the library does not list");
     }
-    Json facts = {{nameOf(answer.decision), true}, {"found", !answer.set.empty()}, {"family", answer.family},
-        {"predicts", !grade.empty() && grade != "named"}, {"measured", grade == "measured"}, {"members", members},
-        {"causes", joined(causes, ", or ")}, {"single", answer.set.size() == 1},
-        {"strained", joined(strainedParameters(findings), " and ")}, {"chance", percent(answer.pValue)},
-        {"pValue", pValueText(answer.pValue)}, {"otherProbability", percent(answer.otherProbability)},
-        {"doubts", doubtsOf(findings)}, {"hints", hintsOf(findings)},
-        {"atEnds", mapped(valuesAtEnds(findings), capitalised)},
-        {"largest", largestOf(study, residualsOf(findings, answer.null.setting))}};
+    Json facts = {{nameOf(answer.decision), true}, {"effectCount", study.effects.size()},
+        {"found", !answer.set.empty()}, {"single", answer.set.size() == 1}, {"family", answer.family},
+        {"predicts", predicts}, {"confirmed", isConfirmed}, {"members", members}, {"causes", joined(causes, ", or ")},
+        {"probabilities", probabilities}, {"strained", joined(strainedParameters(findings), " and ")},
+        {"pValue", answer.pValue}, {"otherProbability", answer.otherProbability}, {"doubts", doubtsOf(findings)},
+        {"hints", hintsOf(findings)}, {"atEnds", mapped(valuesAtEnds(findings), capitalised)},
+        {"largest", largestOf(study, without)}, {"scatters", answer.emulator->scatters()},
+        {"wrongNames", textOf(100.0 * study.settings.wrongNames)}, {"wrongNamesFound", answer.calibration.wrongNames},
+        {"modelError", study.modelError.maxCoeff() > 0.0}, {"leftOut", mapped(study.leftOut, inLine)},
+        {"differ", study.simulator.scatters()}};
     facts["hint"] = facts["hints"].empty() ? Json() : facts["hints"].front()["is"];
-    std::string probabilities;
-    for (const auto& each : answer.set)
-    {
-        probabilities += meaningOf(findings, each) + ' ' + percent(each.probability) + ", ";
-    }
-    facts["probabilities"] = probabilities;
+    facts["priors"] = mapped(study.parameters, [](const Parameter& one) -> Json {
+        return {{"name", one.name}, {"mean", textOf(one.mean)}, {"sd", textOf(one.sd)}, {nameOf(one.from), true}};
+    });
     if (answer.nearest)
     {
-        facts["nearest"] = {{"meaning", meaningOf(findings, *answer.nearest)},
-            {"takes", percent(shareTaken(answer, *answer.nearest))}, {"without", rounded(answer.null.chiSquare, 3)},
-            {"with", rounded(answer.nearest->chiSquare, 3)}, {"numbers", answer.measured.mean.size()},
+        facts["nearest"] = {{"name", nameOf(study, answer.nearest->effects)},
+            {"meaning", meaningOf(findings, *answer.nearest)}, {"takes", shareTaken(answer, *answer.nearest)},
+            {"without", answer.null.chiSquare}, {"with", answer.nearest->chiSquare},
+            {"numbers", answer.measured.mean.size()},
             {"left", largestOf(study, residualsOf(findings, answer.nearest->setting))}};
     }
     if (best != nullptr)
     {
-        facts["deciding"] = decidingCondition(findings, *best);
+        facts["best"] = nameOf(study, best->effects);
+        facts["deciding"] = decidingCondition(study, without, with);
     }
     if (!study.parameters.empty())
     {
-        facts["parameters"] = parameterFacts(findings, best);
+        const auto names = mapped(study.parameters, [](const Parameter& one) { return one.name; });
+        facts["parameters"] = {{"names", capitalised(joined(names, " and "))},
+            {"prior", rmsInErrors(residualsOf(findings, findings.studySimulator->plainSetting()))},
+            {"fitted", rmsInErrors(without)}, {"residual", rmsInErrors(with)}};
     }
     if (!answer.set.empty())
     {
@@ -379,8 +369,7 @@ Json answerFacts(const Findings& findings)
     if (answer.oddsOfName && best != nullptr)
     {
         const auto [odds, needed] = *answer.oddsOfName;
-        facts["odds"] = {{"effect", nameOf(study, best->effects)}, {"is", rounded(odds)},
-            {"needed", std::isfinite(needed) ? rounded(needed) : ""}};
+        facts["odds"] = {{"is", odds}, {"needed", std::isfinite(needed) ? Json(needed) : Json()}};
     }
     if (answer.decision == Decision::named)
     {
@@ -398,27 +387,10 @@ Json answerFacts(const Findings& findings)
     return facts;
 }
 
-/// What the sentences on the assumptions state.
-Json assumedFacts(const Study& study, const Answer& answer)
-{
-    return {{"priors", mapped(study.parameters,
-                           [](const Parameter& one) -> Json {
-                               return {{"name", one.name}, {"mean", textOf(one.mean)}, {"sd", textOf(one.sd)},
-                                   {"origin", one.from == Origin::measured   ? "an independent measurement gave"
-                                              : one.from == Origin::handbook ? "a handbook gives"
-                                                                             : "before the fit it was guessed to be"}};
-                           })},
-        {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
-        {"wrongNamesFound", rounded(100.0 * answer.calibration.wrongNames)},
-        {"modelError", study.modelError.maxCoeff() > 0.0}, {"leftOut", mapped(study.leftOut, inLine)},
-        {"differ", study.simulator.scatters()}};
-}
-
-/// The sentences of one part: summary, details, next or assumptions.
-std::vector<std::string> part(const Study& study, const std::string& name, Json facts)
+/// The sentences of one part of the template.
+std::vector<std::string> part(const std::string& name, Json facts)
 {
     facts[name] = true;
-    facts["effectCount"] = study.effects.size();
     std::istringstream text(filled(sentences, facts, Escape::none));
     std::vector<std::string> all;
     for (std::string line; std::getline(text, line);)
@@ -433,44 +405,17 @@ std::vector<std::string> part(const Study& study, const std::string& name, Json 
 
 } // namespace
 
-std::string gradeOf(const Findings& findings)
-{
-    const Answer& answer = *findings.answer;
-    if (answer.decision != Decision::named)
-    {
-        return "";
-    }
-    if (findings.heldOut == nullptr || !findings.heldOut->better)
-    {
-        return "named";
-    }
-    const auto& named = answer.set.front().effects;
-    return std::all_of(named.begin(), named.end(),
-               [&](std::size_t e) {
-                   return agreesWithMeasurement(findings.study->effects[e], answer.effects[e]).value_or(false);
-               })
-               ? "measured"
-               : "better";
-}
-
 std::string namedBy(const Study& study, const Answer& answer)
 {
     return answer.family.empty() ? nameOf(study, answer.set.front().effects) : answer.family;
 }
 
-std::string sentenceOf(const Findings& findings)
+Sentences sentencesOf(const Findings& findings)
 {
-    return part(*findings.study, "summary", answerFacts(findings)).front();
-}
-
-std::vector<std::string> detailsOf(const Findings& findings)
-{
-    return part(*findings.study, "details", answerFacts(findings));
-}
-
-std::vector<std::string> nextOf(const Findings& findings)
-{
-    return part(*findings.study, "next", answerFacts(findings));
+    const Json facts = factsOf(findings);
+    std::vector<std::string> assumptions = findings.study->assumptions;
+    append(assumptions, part("assumptions", facts));
+    return {part("summary", facts).front(), part("details", facts), part("next", facts), assumptions};
 }
 
 std::vector<std::string> failedRunsOf(const Study& study, const Effort& effort)
@@ -491,14 +436,6 @@ std::vector<std::string> failedRunsOf(const Study& study, const Effort& effort)
                             + std::to_string(failures.front().seed) + ": " + fromStudy(study, failures.front().reason));
     }
     return sentences;
-}
-
-std::vector<std::string> assumptionsOf(const Findings& findings)
-{
-    const Study& study = *findings.study;
-    std::vector<std::string> all = study.assumptions;
-    append(all, part(study, "assumptions", assumedFacts(study, *findings.answer)));
-    return all;
 }
 
 } // namespace clepsydra::identification

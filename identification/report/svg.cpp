@@ -1,5 +1,7 @@
 #include "report/svg.h"
 
+#include "report/text.h"
+
 #include <kainjow/mustache.hpp>
 
 #include <algorithm>
@@ -79,34 +81,6 @@ private:
     bool isLog_ = false;
 };
 
-/// Elements of a picture.
-struct Picture
-{
-    Picture()
-    {
-        text << std::fixed << std::setprecision(1);
-    }
-
-    void line(const std::string& look, double x1, double y1, double x2, double y2)
-    {
-        text << "<line " << look << " x1=\"" << x1 << "\" y1=\"" << y1 << "\" x2=\"" << x2 << "\" y2=\"" << y2
-             << "\"/>\n";
-    }
-    void words(const std::string& look, double x, double y, const std::string& said)
-    {
-        text << "<text class=" << look << " x=\"" << x << "\" y=\"" << y << "\">"
-             << kainjow::mustache::html_escape(said) << "</text>\n";
-    }
-    void tick(const std::string& anchor, double x, double y, double value)
-    {
-        std::ostringstream said;
-        said << std::setprecision(3) << value;
-        words("\"tick\" text-anchor=\"" + anchor + '"', x, y, said.str());
-    }
-
-    std::ostringstream text;
-};
-
 } // namespace
 
 void Plot::line(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const std::string& style, const std::string& label)
@@ -142,50 +116,60 @@ std::string Plot::svg() const
     const Axis x(xs, left, right, hasRows);
     const Axis y = hasRows ? Axis({0.0, rowCount}, top, bottom) : Axis(ys, bottom, top);
 
-    Picture picture;
-    picture.text << "<svg viewBox=\"0 0 " << width << ' ' << bottom + (hasRows ? 20.0 : 42.0)
-                 << R"(" class="plot" role="img" aria-label=")" << kainjow::mustache::html_escape(title) << "\">\n";
-    picture.words("\"title\"", 4.0, 16.0, title);
+    std::ostringstream svg;
+    svg << std::fixed << std::setprecision(1);
+    const auto draw = [&](const std::string& look, double x1, double y1, double x2, double y2) {
+        svg << "<line " << look << " x1=\"" << x1 << "\" y1=\"" << y1 << "\" x2=\"" << x2 << "\" y2=\"" << y2
+            << "\"/>\n";
+    };
+    const auto write = [&](const std::string& look, double atX, double atY, const std::string& text) {
+        svg << "<text class=" << look << " x=\"" << atX << "\" y=\"" << atY << "\">"
+            << kainjow::mustache::html_escape(text) << "</text>\n";
+    };
+    const auto number = [](double value) { return formatted(value, std::defaultfloat, 3); };
+    svg << "<svg viewBox=\"0 0 " << width << ' ' << bottom + (hasRows ? 20.0 : 42.0)
+        << R"(" class="plot" role="img" aria-label=")" << kainjow::mustache::html_escape(title) << "\">\n";
+    write("\"title\"", 4.0, 16.0, title);
     for (const double tick : x.ticks())
     {
         if (x(tick) >= left && x(tick) <= right)
         {
-            picture.line("class=\"grid\"", x(tick), top, x(tick), bottom);
-            picture.tick("middle", x(tick), bottom + 14.0, tick);
+            draw("class=\"grid\"", x(tick), top, x(tick), bottom);
+            write(R"("tick" text-anchor="middle")", x(tick), bottom + 14.0, number(tick));
         }
     }
     for (const double tick : hasRows ? std::vector<double>{} : y.ticks())
     {
-        picture.line("class=\"grid\"", left, y(tick), right, y(tick));
-        picture.tick("end", left - 5.0, y(tick) + 3.0, tick);
+        draw("class=\"grid\"", left, y(tick), right, y(tick));
+        write(R"("tick" text-anchor="end")", left - 5.0, y(tick) + 3.0, number(tick));
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-        picture.words(R"("tick" text-anchor="end")", left - 6.0, y(static_cast<double>(i)) + 13.0, rows[i]);
+        write(R"("tick" text-anchor="end")", left - 6.0, y(static_cast<double>(i)) + 13.0, rows[i]);
     }
     std::set<std::string> labels = {""};
     double legend = 4.0;
     for (const auto& line : lines)
     {
-        picture.text << R"(<polyline style=")" << line.style << R"(" points=")";
+        svg << R"(<polyline style=")" << line.style << R"(" points=")";
         for (Eigen::Index i = 0; i < line.x.size(); ++i)
         {
             if (std::isfinite(line.x(i)) && std::isfinite(line.y(i)))
             {
-                picture.text << x(line.x(i)) << ',' << y(line.y(i)) << ' ';
+                svg << x(line.x(i)) << ',' << y(line.y(i)) << ' ';
             }
         }
-        picture.text << "\"/>\n";
+        svg << "\"/>\n";
         if (labels.insert(line.label).second)
         {
-            picture.line("style=\"" + line.style + ";stroke-width:3\"", legend, 29.0, legend + 16.0, 29.0);
-            picture.words("\"tick\"", legend + 20.0, 32.0, line.label);
+            draw("style=\"" + line.style + ";stroke-width:3\"", legend, 29.0, legend + 16.0, 29.0);
+            write("\"tick\"", legend + 20.0, 32.0, line.label);
             legend += 34.0 + perLetter * static_cast<double>(line.label.size());
         }
     }
-    picture.words(R"("label" text-anchor="middle")", (left + right) / 2.0, bottom + 34.0, xLabel);
-    picture.words("\"label\" text-anchor=\"middle\" transform=\"rotate(-90)\"", -(top + bottom) / 2.0, 13.0, yLabel);
-    return picture.text.str() + "</svg>\n";
+    write(R"("label" text-anchor="middle")", (left + right) / 2.0, bottom + 34.0, xLabel);
+    write("\"label\" text-anchor=\"middle\" transform=\"rotate(-90)\"", -(top + bottom) / 2.0, 13.0, yLabel);
+    return svg.str() + "</svg>\n";
 }
 
 } // namespace clepsydra::identification

@@ -31,20 +31,6 @@ bool isPlain(int power)
     return power >= -4 && power <= 6;
 }
 
-std::string withDecimals(double value, int decimals)
-{
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(std::max(0, decimals)) << value;
-    return text.str();
-}
-
-std::string scientific(double value, int digits)
-{
-    std::ostringstream text;
-    text << std::scientific << std::setprecision(digits - 1) << value;
-    return text.str();
-}
-
 std::string estimateText(const Json& estimate)
 {
     const Json error = estimate.value("standardError", estimate.value("sd", Json()));
@@ -75,6 +61,8 @@ mustache::data dataOf(const Json& json)
     if (json.is_number())
     {
         const auto value = json.get<double>();
+        data["short"] = rounded(value);
+        data["p"] = pValueText(value);
         data["text"] = json.is_number_integer() ? json.dump() : rounded(value, 3);
         data["share"] = percent(value);
         data["percent"] = rounded(100.0 * value) + " %";
@@ -93,6 +81,18 @@ mustache::data dataOf(const Json& json)
 
 } // namespace
 
+void to_json(nlohmann::ordered_json& json, const Estimate& estimate)
+{
+    json = {{"value", estimate.value}, {"standardError", estimate.standardError}};
+}
+
+std::string formatted(double value, std::ios_base& (*format)(std::ios_base&), int digits)
+{
+    std::ostringstream text;
+    text << format << std::setprecision(std::max(0, digits)) << value;
+    return text.str();
+}
+
 std::string rounded(double value, int digits)
 {
     if (value == 0.0 || !std::isfinite(value))
@@ -102,7 +102,8 @@ std::string rounded(double value, int digits)
     const double unit = std::pow(10.0, powerOfTen(value) + 1 - digits);
     const double near = std::round(value / unit) * unit;
     const int power = powerOfTen(near * (1.0 + 1e-9)); // rounding may have raised it: 0.0999 has become 0.1
-    return isPlain(power) ? withDecimals(near, digits - 1 - power) : scientific(near, digits);
+    return isPlain(power) ? formatted(near, std::fixed, digits - 1 - power)
+                          : formatted(near, std::scientific, digits - 1);
 }
 
 std::string percent(double share)
@@ -127,10 +128,10 @@ std::string withError(const Estimate& estimate)
     const int decimals = 1 - powerOfTen(error);
     if (isPlain(powerOfTen(error)) || (value != 0.0 && isPlain(powerOfTen(value))))
     {
-        return withDecimals(value, decimals) + " ± " + withDecimals(error, decimals);
+        return formatted(value, std::fixed, decimals) + " ± " + formatted(error, std::fixed, decimals);
     }
-    const int digits = value == 0.0 ? 2 : std::max(1, powerOfTen(value) + decimals + 1);
-    return scientific(value, digits) + " ± " + scientific(error, 2);
+    const int digits = value == 0.0 ? 1 : powerOfTen(value) + decimals;
+    return formatted(value, std::scientific, digits) + " ± " + formatted(error, std::scientific, 1);
 }
 
 std::string filled(const char* pattern, const Json& data, Escape escape)

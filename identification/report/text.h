@@ -1,15 +1,19 @@
 #pragma once
 
-#include "heldOut/scores.h"
+#include "heldOut/predictive.h"
 #include "study/study.h"
 
 #include <nlohmann/json.hpp>
 
+#include <ios>
 #include <ostream>
 #include <string>
 
 namespace clepsydra::identification
 {
+
+/// \param format  std::fixed, std::scientific or std::defaultfloat
+std::string formatted(double value, std::ios_base& (*format)(std::ios_base&), int digits);
 
 /// A number with a few significant digits.
 std::string rounded(double value, int digits = 2);
@@ -19,6 +23,8 @@ std::string percent(double share);
 
 /// A p-value: "p = 0.03"; "p below 1e-6" where no test of the program can tell smaller ones apart.
 std::string pValueText(double pValue);
+
+void to_json(nlohmann::ordered_json& json, const Estimate& estimate);
 
 /// A value with its standard error, with as many digits as the error allows: "0.173 ± 0.012".
 std::string withError(const Estimate& estimate);
@@ -32,6 +38,8 @@ enum class Escape
 /// Fills a mustache template (https://mustache.github.io/mustache.5.html). What is null or empty counts as false, and a
 /// number is an object of its forms:
 ///     text     three significant digits, or all digits of an integer
+///     short    two significant digits
+///     p        a p-value: "p = 0.03"
 ///     share    a share in percent: "<1 %"
 ///     percent  "2.1 %"
 /// An estimate, an object with `value` and `standardError` or `sd`, has besides these keys its `text`: "0.17 ± 0.01".

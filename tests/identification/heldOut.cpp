@@ -1,5 +1,5 @@
 #include "emulator/distributions.h"
-#include "heldOut/scores.h"
+#include "heldOut/predictive.h"
 #include "nextRuns/nextExperiment.h"
 
 #include <gtest/gtest.h>
@@ -180,7 +180,7 @@ Estimate errorWith(double declared)
 {
     std::mt19937_64 random(6);
     std::vector<HeldOutData> data(1);
-    data[0].features = (Eigen::MatrixXd(4, 1) << 0.1, 0.3, 0.1, 0.3).finished();
+    data[0].mean = Eigen::VectorXd::Constant(1, 0.2);
     data[0].meanShare = Eigen::MatrixXd::Constant(1, 1, 0.25);
     data[0].declaredVariance = Eigen::VectorXd::Constant(1, declared);
     data[0].errorSlopes = Eigen::MatrixXd::Zero(1, 0);
@@ -189,7 +189,7 @@ Estimate errorWith(double declared)
     predictions[0].variance = Eigen::VectorXd::Constant(1, 0.0003);
     predictions[0].dataCovariance = Eigen::MatrixXd::Constant(1, 1, 0.0004);
     const auto noise = drawDataNoise(data, predictions, 4000, random);
-    return rmsError(data, predictions, {{0}}, noise, random);
+    return rmsError(data, predictions, {{0}}, noise, random).first;
 }
 
 /// Far from zero, the standard error of the rms error is sqrt(0.0004/4 + 0.0003) = 0.02, and with an additional
@@ -206,7 +206,7 @@ TEST(HeldOut, CommonErrorsAreShared)
 {
     std::mt19937_64 random(6);
     HeldOutData one;
-    one.features = Eigen::MatrixXd::Zero(1, 2);
+    one.mean = Eigen::VectorXd::Zero(2);
     one.meanShare = Eigen::MatrixXd::Ones(2, 2);
     one.declaredVariance = Eigen::VectorXd::Zero(2);
     one.errorSlopes = Eigen::Vector2d(0.1, -0.2);

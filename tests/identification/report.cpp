@@ -246,18 +246,16 @@ TEST(Sentence, SaysWhatWasFound)
     Bench bench;
     bench.found(Decision::named, {{1, 0.5}});
     bench.heldOutErrors(0.351, 0.0207);
-    EXPECT_EQ(sentenceOf(bench.findings),
+    EXPECT_EQ(sentencesOf(bench.findings).summary,
         "Of the 3 effects tried only this one fits: water that moves along with a particle (y 0.020); an untried "
         "effect "
         "may act alike here; with it the error on held-out measurements falls from 35 to 2.1 %.");
-    EXPECT_EQ(gradeOf(bench.findings), "named");
     bench.heldOut.better = true;
-    EXPECT_EQ(sentenceOf(bench.findings),
+    EXPECT_EQ(sentencesOf(bench.findings).summary,
         "The residual is explained by: water that moves along with a particle (y 0.020), or something that acts like "
         "it, "
         "which also predicts the held-out measurements; with it the error on held-out measurements falls from 35 to "
         "2.1 %.");
-    EXPECT_EQ(gradeOf(bench.findings), "better");
 }
 
 TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)
@@ -270,7 +268,7 @@ TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)
         Bench bench;
         bench.found(Decision::named, {{1, 0.5}});
         bench.heldOutErrors(0.05, after);
-        EXPECT_THAT(sentenceOf(bench.findings), HasSubstr(says));
+        EXPECT_THAT(sentencesOf(bench.findings).summary, HasSubstr(says));
     }
 }
 
@@ -278,7 +276,7 @@ TEST(Sentence, OfASetSaysWhatToMeasure)
 {
     Bench bench;
     bench.found(Decision::set, {{1, 0.5}, {0, -1}}, true);
-    EXPECT_THAT(sentenceOf(bench.findings),
+    EXPECT_THAT(sentencesOf(bench.findings).summary,
         AllOf(StartsWith("The residual has one of these causes: water that moves along with a particle (y 0.020), the "
                          "orifice is wider"),
             HasSubstr(", or a cause that the library does not list; to distinguish them: a plug gauge.")));
@@ -289,12 +287,43 @@ TEST(Sentence, OfASetSaysWhatToMeasure)
     next[0].outcomes = {{"y", 0.6, Eigen::VectorXd::Constant(1, -2.3), Eigen::VectorXd::Constant(1, 0.02)},
         {"x", 0.4, Eigen::VectorXd::Constant(1, -2.4), Eigen::VectorXd::Constant(1, 0.03)}};
     bench.findings.next = &next;
-    EXPECT_THAT(sentenceOf(bench.findings), EndsWith("; to distinguish them, measure again."));
-    const auto sentences = nextOf(bench.findings);
+    EXPECT_THAT(sentencesOf(bench.findings).summary, EndsWith("; to distinguish them, measure again."));
+    const auto sentences = sentencesOf(bench.findings).next;
     ASSERT_EQ(sentences.size(), 2U);
     EXPECT_THAT(sentences[0], AllOf(HasSubstr("Measure again"), HasSubstr("10 % larger with y than with x"),
                                   HasSubstr("a standard error of 3.0 %")));
     EXPECT_THAT(sentences[1], HasSubstr("a plug gauge"));
+}
+
+/// What a single explanation predicts is given in the units of the data: 0.1 kg/s ± 2 % in those of a measured number, or
+/// those that follow from the columns of a curve; in SI units only where nothing was measured.
+TEST(Sentence, PredictsInTheUnitsOfTheData)
+{
+    const auto predicted = [](const Measurement& measured) {
+        Bench bench;
+        bench.found(Decision::named, {{1, 0.5}});
+        bench.study.conditions[0].measured = measured;
+        std::vector<NextExperiment> next(1);
+        next[0].condition = 2;
+        next[0].outcomes = {{"y", 1, Eigen::VectorXd::Constant(1, std::log(0.1)), Eigen::VectorXd::Constant(1, 0.02)}};
+        bench.findings.next = &next;
+        return sentencesOf(bench.findings).next.front();
+    };
+    Measurement number;
+    number.numbers = {{0, {}, 0, "g/s", 1e-3}};
+    Measurement share;
+    share.numbers = {{0, {}, 0, "1", 1}};
+    Measurement curve;
+    curve.files = {"a.csv"};
+    curve.time.unit = "min";
+    curve.time.siUnits = 60;
+    curve.value.unit = "kg";
+    EXPECT_THAT(
+        predicted(number), AllOf(StartsWith("A measurement of again would test y, which predicts 'logMeanRate'"),
+                               EndsWith("' 100.0 ± 2.0 g/s there.")));
+    EXPECT_THAT(predicted(curve), EndsWith("' 6.00 ± 0.12 kg/min there."));
+    EXPECT_THAT(predicted(share), EndsWith("' 0.1000 ± 0.0020 there."));
+    EXPECT_THAT(predicted({}), EndsWith("' 0.1000 ± 0.0020 (SI units) there."));
 }
 
 /// Two pairs that share an effect: how it is measured is said once.
@@ -307,7 +336,8 @@ TEST(Sentence, GivesEachHintOnce)
         member.effects.push_back(0);
         member.fits.push_back(bench.answer.effects[0].fit);
     }
-    EXPECT_THAT(nextOf(bench.findings), ElementsAre(HasSubstr("x can be measured independently: a plug gauge")));
+    EXPECT_THAT(
+        sentencesOf(bench.findings).next, ElementsAre(HasSubstr("x can be measured independently: a plug gauge")));
 }
 
 /// A fit whose friction contradicts its independent measurement may compensate for a missing effect; the sentence must
@@ -316,10 +346,11 @@ TEST(Sentence, OfAFitThatContradictsAMeasurement)
 {
     Bench bench;
     bench.answer.null.setting.parameters(0) = 0.15 + 3.5 * 0.02;
-    EXPECT_THAT(sentenceOf(bench.findings),
+    EXPECT_THAT(sentencesOf(bench.findings).summary,
         StartsWith("The model fits, but only with friction 3.5 standard deviations from the independent measurement"));
     bench.found(Decision::named, {{1, 0.5}});
-    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("moves friction 3.5 standard deviations from")));
+    EXPECT_THAT(
+        sentencesOf(bench.findings).details, Contains(HasSubstr("moves friction 3.5 standard deviations from")));
 }
 
 /// A single member that may not be named leaves an unlisted cause possible.
@@ -329,9 +360,9 @@ TEST(Sentence, OfASingleMemberKeepsTheDoubt)
     bench.found(Decision::set, {{1, 0.5}}, true);
     bench.answer.otherProbability = 0.3;
     bench.answer.oddsOfName = {2.13, 3.46};
-    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("does not list 30 %")));
-    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("causes are 2.1, and a name needs 3.5")));
-    EXPECT_THAT(sentenceOf(bench.findings),
+    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("does not list 30 %")));
+    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("causes are 2.1, and a name needs 3.5")));
+    EXPECT_THAT(sentencesOf(bench.findings).summary,
         StartsWith("The residual has one of these causes: water that moves along with a particle (y 0.020), or a cause "
                    "that"));
 }
@@ -339,14 +370,14 @@ TEST(Sentence, OfASingleMemberKeepsTheDoubt)
 TEST(Sentence, OfNoResidualAndOfAnUnlistedCause)
 {
     Bench bench;
-    EXPECT_EQ(sentenceOf(bench.findings), "The model agrees with these measurements within their noise.");
-    EXPECT_THAT(detailsOf(bench.findings),
+    EXPECT_EQ(sentencesOf(bench.findings).summary, "The model agrees with these measurements within their noise.");
+    EXPECT_THAT(sentencesOf(bench.findings).details,
         ElementsAre(HasSubstr("Friction alone can take the residual from"), HasSubstr("<1 % of such data (p = 0.001)"),
             HasSubstr("does not show"), HasSubstr("No condition was held out")));
     bench.answer.decision = Decision::unknown;
-    EXPECT_THAT(sentenceOf(bench.findings),
+    EXPECT_THAT(sentencesOf(bench.findings).summary,
         StartsWith("The residual has a cause that the library does not list: none of its 3 effects"));
-    EXPECT_THAT(detailsOf(bench.findings), Each(Not(HasSubstr("probabilities")))) << "no explanation fits";
+    EXPECT_THAT(sentencesOf(bench.findings).details, Each(Not(HasSubstr("probabilities")))) << "no explanation fits";
 }
 
 TEST(Sentence, OfVariantsOfOneEffect)
@@ -354,9 +385,9 @@ TEST(Sentence, OfVariantsOfOneEffect)
     Bench bench;
     bench.found(Decision::named, {{1, 0.5}, {0, 1}});
     bench.answer.family = "flow";
-    EXPECT_THAT(
-        sentenceOf(bench.findings), AllOf(HasSubstr(", or the orifice is wider"), HasSubstr("variants of one effect"),
-                                        Not(HasSubstr("one of these causes"))));
+    EXPECT_THAT(sentencesOf(bench.findings).summary,
+        AllOf(HasSubstr(", or the orifice is wider"), HasSubstr("variants of one effect"),
+            Not(HasSubstr("one of these causes"))));
 }
 
 /// The prior of a parameter is called a measurement only if it is one.
@@ -370,13 +401,13 @@ TEST(Sentence, SaysWhereAPriorComesFrom)
         Bench bench;
         bench.study.parameters[0].from = from;
         bench.answer.null.setting.parameters(0) = 0.15 + 3.5 * 0.02;
-        EXPECT_THAT(sentenceOf(bench.findings), HasSubstr(std::string("3.5 standard deviations from ") + fit));
-        EXPECT_THAT(assumptionsOf(bench.findings), Contains(HasSubstr(assumed)));
+        EXPECT_THAT(sentencesOf(bench.findings).summary, HasSubstr(std::string("3.5 standard deviations from ") + fit));
+        EXPECT_THAT(sentencesOf(bench.findings).assumptions, Contains(HasSubstr(assumed)));
         const auto words = testing::AnyOf(HasSubstr("independent measurement"), HasSubstr("measurement gave"));
         if (from != Origin::measured)
         {
-            EXPECT_THAT(sentenceOf(bench.findings), Not(words));
-            EXPECT_THAT(assumptionsOf(bench.findings), Each(Not(words)));
+            EXPECT_THAT(sentencesOf(bench.findings).summary, Not(words));
+            EXPECT_THAT(sentencesOf(bench.findings).assumptions, Each(Not(words)));
         }
     }
 }
@@ -390,19 +421,19 @@ TEST(Sentence, NamesTheNearestEffect)
     bench.answer.set.clear();
     bench.answer.null.chiSquare = 650;
     bench.answer.nearest->chiSquare = 65;
-    EXPECT_THAT(detailsOf(bench.findings),
+    EXPECT_THAT(sentencesOf(bench.findings).details,
         Contains(AllOf(HasSubstr("Nearest is water that moves along with a particle"), HasSubstr("takes 90 %"),
             HasSubstr("chi-square 650 without, 65.0 with it, in 2 numbers"),
             HasSubstr("what is left is in condition"))));
-    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("Condition dry decides most: there, y takes")));
+    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("Condition dry decides most: there, y takes")));
 
     bench.heldOutErrors(0.351, 0.0207);
     bench.heldOut.nearest = bench.heldOut.after;
     bench.heldOut.nearest->rmsLogError = {0.21, 0.03};
     bench.heldOut.after.reset();
-    EXPECT_THAT(
-        detailsOf(bench.findings), AllOf(Contains("With the nearest effect, y, the error would be 21.0 ± 3.0 %."),
-                                       Each(AllOf(Not(HasSubstr("Better")), Not(HasSubstr("omplete"))))));
+    EXPECT_THAT(sentencesOf(bench.findings).details,
+        AllOf(Contains("With the nearest effect, y, the error would be 21.0 ± 3.0 %."),
+            Each(AllOf(Not(HasSubstr("Better")), Not(HasSubstr("omplete"))))));
 }
 
 /// A name stands beside the causes that most data cannot distinguish from it, in whichever of the two such data were.
@@ -410,9 +441,9 @@ TEST(Sentence, NamesCausesThatActAlike)
 {
     Bench bench;
     bench.found(Decision::named, {{1, 0.5}});
-    EXPECT_THAT(detailsOf(bench.findings), Each(Not(HasSubstr("act like"))));
+    EXPECT_THAT(sentencesOf(bench.findings).details, Each(Not(HasSubstr("act like"))));
     bench.answer.visibility.alike = {{1, 0}, {0, 1}, {2, 1}, {0, 2}};
-    EXPECT_THAT(detailsOf(bench.findings),
+    EXPECT_THAT(sentencesOf(bench.findings).details,
         Contains("Causes that act like y in these conditions, even at full size: x, clock."));
 }
 
@@ -427,7 +458,7 @@ TEST(Sentence, GivesReasons)
     bench.answer.effects[0].probability = 0.3;
     bench.answer.effects[0].notInSetBecause = "it fits no better than no effect";
     bench.answer.null.setting.parameters(0) = 1;
-    const auto details = detailsOf(bench.findings);
+    const auto details = sentencesOf(bench.findings).details;
     EXPECT_THAT(
         details, Contains("X is no candidate in spite of its probability, 30 %: it fits no better than no effect."));
     EXPECT_THAT(
@@ -445,7 +476,7 @@ TEST(Sentence, SaysThatAnIntervalContainsZero)
         bench.answer.effects[1].inSet = true;
         bench.answer.effects[1].fit.lower = lower;
         bench.answer.effects[1].fit.upper = 1.08;
-        const auto details = detailsOf(bench.findings);
+        const auto details = sentencesOf(bench.findings).details;
         EXPECT_EQ(testing::Value(details, Contains("The 95 % interval of the size of y contains 0.")), contains)
             << lower;
     }
@@ -463,7 +494,8 @@ TEST(Sentence, ComparesAMeasuredAmplitude)
         bench.answer.effects[1].alone = Fit{};
         bench.answer.effects[1].alone->amplitude = 0.9;
         bench.answer.effects[1].alone->sd = 0.1;
-        EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr(std::string("0.90 ± 0.10: the two ") + says)));
+        EXPECT_THAT(
+            sentencesOf(bench.findings).details, Contains(HasSubstr(std::string("0.90 ± 0.10: the two ") + says)));
     }
 }
 
@@ -498,16 +530,16 @@ TEST(Fitted, NumbersHaveErrors)
     bench.found(Decision::named, {{1, 0.5}});
     const auto numbers = fittedNumbers(bench.findings);
     ASSERT_EQ(numbers.size(), 2U);
-    EXPECT_EQ(numbers[0].name, "friction");
-    EXPECT_EQ(numbers[0].unit, "rad");
-    EXPECT_NEAR(numbers[0].before.value, 0.2, 1e-12);
-    EXPECT_NEAR(numbers[0].before.standardError, 0.5 * 0.02, 1e-12);
-    EXPECT_NEAR(numbers[0].after->value, 0.15, 1e-12);
-    EXPECT_NEAR(numbers[0].after->standardError, 0.2 * 0.02, 1e-12);
-    EXPECT_EQ(numbers[1].name, "y");
-    EXPECT_EQ(numbers[1].before.value, 0);
-    EXPECT_NEAR(numbers[1].after->value, 0.02, 1e-9);
-    EXPECT_NEAR(numbers[1].after->standardError, 0.004, 1e-9);
+    EXPECT_EQ(numbers[0]["name"], "friction");
+    EXPECT_EQ(numbers[0]["unit"], "rad");
+    EXPECT_NEAR(numbers[0]["withoutEffect"]["value"].get<double>(), 0.2, 1e-12);
+    EXPECT_NEAR(numbers[0]["withoutEffect"]["standardError"].get<double>(), 0.5 * 0.02, 1e-12);
+    EXPECT_NEAR(numbers[0]["withEffect"]["value"].get<double>(), 0.15, 1e-12);
+    EXPECT_NEAR(numbers[0]["withEffect"]["standardError"].get<double>(), 0.2 * 0.02, 1e-12);
+    EXPECT_EQ(numbers[1]["name"], "y");
+    EXPECT_EQ(numbers[1]["withoutEffect"]["value"], 0);
+    EXPECT_NEAR(numbers[1]["withEffect"]["value"].get<double>(), 0.02, 1e-9);
+    EXPECT_NEAR(numbers[1]["withEffect"]["standardError"].get<double>(), 0.004, 1e-9);
 }
 
 /// A fitted logarithm is also shown as the entry that the case receives: exp(-0.3 ± 0.01).
@@ -518,10 +550,10 @@ TEST(Fitted, ShowsWhatAParameterSets)
     bench.study.parameters[0].entries.emplace("x", Expression("exp(friction)"));
     const auto numbers = fittedNumbers(bench.findings);
     ASSERT_EQ(numbers.size(), 2U);
-    EXPECT_EQ(numbers[1].name, "x");
-    EXPECT_NEAR(numbers[1].before.value, std::exp(0.2), 1e-6);
-    EXPECT_NEAR(numbers[1].before.standardError, 0.01 * std::exp(0.2), 1e-4);
-    EXPECT_FALSE(numbers[1].after);
+    EXPECT_EQ(numbers[1]["name"], "x");
+    EXPECT_NEAR(numbers[1]["withoutEffect"]["value"].get<double>(), std::exp(0.2), 1e-6);
+    EXPECT_NEAR(numbers[1]["withoutEffect"]["standardError"].get<double>(), 0.01 * std::exp(0.2), 1e-4);
+    EXPECT_TRUE(numbers[1]["withEffect"].is_null());
 }
 
 } // namespace
