@@ -7,6 +7,7 @@
 #include "heldOut/heldOut.h"
 #include "procedure/trace.h"
 #include "study/readStudy.h"
+#include "study/yaml.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
