@@ -35,17 +35,11 @@ Eigen::VectorXd ConditionEmulator::at(const Eigen::VectorXd& parameters, const s
 
 Eigen::VectorXd ConditionEmulator::reach(const std::vector<Present>& present) const
 {
-    Eigen::VectorXd factors = Eigen::VectorXd::Ones(basis.parameters);
     const Eigen::VectorXd here = amplitudes(present);
-    for (std::size_t p = 0; p < owners.size(); ++p)
-    {
-        if (owners[p])
-        {
-            const std::size_t place = basis.placeOf(*owners[p]);
-            factors(p) = place < basis.effects.size() ? here(place) : 0.0;
-        }
-    }
-    return factors;
+    return Eigen::VectorXd::NullaryExpr(basis.parameters, [&](Eigen::Index p) {
+        const std::size_t place = basis.placeOf(owners[p].value_or(0));
+        return !owners[p] ? 1.0 : place < basis.effects.size() ? here(place) : 0.0;
+    });
 }
 
 Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, const Eigen::VectorXd& around) const
@@ -73,9 +67,9 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
             }
         }
     }
-    if (basis.waves.size() > 0)
+    if (basis.waves.phases.size() > 0)
     {
-        whitened.leftCols(1 + q) += coefficients.middleRows(basis.firstWave(), basis.waves.size()).transpose()
+        whitened.leftCols(1 + q) += coefficients.middleRows(basis.firstWave(), basis.waves.phases.size()).transpose()
                                     * basis.waves.linearAt(around.cwiseProduct(reach(present)), amplitudes(present));
     }
     Eigen::MatrixXd polynomial = root * whitened * parameterTermsAt(reach(present)).asDiagonal();
@@ -86,7 +80,7 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
         if (found != chain.end())
         {
             const Chain& one = found->second;
-            const Eigen::VectorXd weights = one.amplitudes.weightsAt(a).transpose();
+            const Eigen::VectorXd weights = one.grid.weightsAt(a).transpose();
             polynomial.col(0) += one.changes * weights;
             for (Eigen::Index i = 0; i < q; ++i)
             {
@@ -126,7 +120,7 @@ Eigen::MatrixXd ConditionEmulator::noiseOf(const std::vector<Present>& present) 
         const auto recorded = chain.find(effect);
         if (recorded != chain.end())
         {
-            factor += recorded->second.logScatter * recorded->second.amplitudes.weightsAt(amplitude).transpose();
+            factor += recorded->second.logScatter * recorded->second.grid.weightsAt(amplitude).transpose();
         }
     }
     factor = factor.array().exp();
