@@ -79,11 +79,9 @@ double chiSquareLimit(
 
 double logPrior(const Study& study, std::size_t e)
 {
-    const Effect& effect = study.effects[e];
-    const auto variants = effect.family.empty() ? 1
-                                                : std::count_if(study.effects.begin(), study.effects.end(),
-                                                    [&](const Effect& other) { return other.family == effect.family; });
-    return std::log(effect.prior / static_cast<double>(variants));
+    const auto variants =
+        numbersWhere(study.effects.size(), [&](std::size_t other) { return shareName(study, e, other); });
+    return std::log(study.effects[e].prior / static_cast<double>(variants.size()));
 }
 
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
@@ -329,10 +327,9 @@ struct Calibrator
     void drawOther()
     {
         const Fit fit = evidence.fitNull(measured);
-        const auto& sizes = Evidence::sizes();
         for (int i = 0; i < mostDraws; ++i)
         {
-            const double size = sizes[static_cast<std::size_t>(i) % sizes.size()];
+            const double size = Evidence::sizes[static_cast<std::size_t>(i) % Evidence::sizes.size()];
             const auto [data, judge] = replicas.drawOther(size, around(fit, random), random);
             const Odds odds = oddsOf(study, judge(data));
             if (isDetected(study, calibration, odds))

@@ -92,12 +92,6 @@ double logDeterminantOf(const Eigen::LLT<Eigen::MatrixXd>& factor)
     return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
 }
 
-const std::vector<double>& Evidence::sizes()
-{
-    static const std::vector<double> all = {0.15, 0.3, 0.6, 1.2};
-    return all;
-}
-
 Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around,
     const Places& places)
     : study_(study),

@@ -148,7 +148,7 @@ public:
     Eigen::VectorXd drawOther(double size, std::mt19937_64& random) const;
 
     /// Sizes of the unlisted cause, as multiples of the library's effects.
-    static const std::vector<double>& sizes();
+    static constexpr std::array<double, 4> sizes = {0.15, 0.3, 0.6, 1.2};
 
 private:
     struct Spread

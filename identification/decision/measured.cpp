@@ -21,14 +21,6 @@ constexpr double asGoodAsKnown = 1e6;
 /// Degrees of freedom of repeats from which the noise is estimated.
 constexpr double leastFreedom = 2.0;
 
-/// The repeats that have all features of a block.
-Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
-{
-    const auto complete =
-        numbersWhere(features.rows(), [&](Eigen::Index row) { return features.row(row).array().isFinite().all(); });
-    return features(complete, Eigen::all);
-}
-
 /// Requires that each measured feature has an error: without one, every difference from it would be a residual.
 /// \param repeats  of all training conditions
 void requireErrors(const Study& study, const MeasuredCondition& data, std::size_t condition,
@@ -191,7 +183,10 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
         Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(block.size(), block.size());
         if (emulator.scatters())
         {
-            const Eigen::MatrixXd rows = completeRows(data[c].features(Eigen::all, kept));
+            const Eigen::MatrixXd repeats = data[c].features(Eigen::all, kept);
+            const auto complete = numbersWhere(
+                repeats.rows(), [&](Eigen::Index row) { return repeats.row(row).array().isFinite().all(); });
+            const Eigen::MatrixXd rows = repeats(complete, Eigen::all);
             if (rows.rows() > 1)
             {
                 const Eigen::MatrixXd deviations = rows.rowwise() - Eigen::RowVectorXd(rows.colwise().mean());

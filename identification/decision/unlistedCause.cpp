@@ -79,7 +79,7 @@ void Evidence::prepareOther()
     }
     const double rounding = 1e-9 * std::max(pattern.diagonal().maxCoeff(), 1e-12);
     otherRoot_ = (pattern + rounding * Eigen::MatrixXd::Identity(n, n)).llt().matrixL();
-    for (const double size : sizes())
+    for (const double size : sizes)
     {
         Eigen::MatrixXd covariance = size * size * pattern + slope * slope.transpose();
         covariance.diagonal() += usual;

@@ -76,8 +76,7 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
     polynomial.col(0) += centre;
     for (const auto& [effect, a] : present)
     {
-        const auto found = chain.find(effect);
-        if (found != chain.end())
+        if (const auto found = chain.find(effect); found != chain.end())
         {
             const Chain& one = found->second;
             const Eigen::VectorXd weights = one.grid.weightsAt(a).transpose();
@@ -112,15 +111,13 @@ Eigen::MatrixXd ConditionEmulator::noiseOf(const std::vector<Present>& present) 
     Eigen::VectorXd factor = Eigen::VectorXd::Zero(noise.rows());
     for (const auto& [effect, amplitude] : present)
     {
-        const auto found = logScatter.find(effect);
-        if (found != logScatter.end())
+        if (const auto found = logScatter.find(effect); found != logScatter.end())
         {
             factor += std::abs(amplitude) * found->second;
         }
-        const auto recorded = chain.find(effect);
-        if (recorded != chain.end())
+        if (const auto found = chain.find(effect); found != chain.end())
         {
-            factor += recorded->second.logScatter * recorded->second.grid.weightsAt(amplitude).transpose();
+            factor += found->second.logScatter * found->second.grid.weightsAt(amplitude).transpose();
         }
     }
     factor = factor.array().exp();

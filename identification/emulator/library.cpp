@@ -182,13 +182,12 @@ std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator)
 Library makeLibrary(StudySimulator& studySimulator)
 {
     const Study& study = studySimulator.study();
-    const auto orders = libraryOrders(studySimulator);
     // The runs at the base setting come first: if they fail, all other runs would be useless.
     std::vector<SimulationOrder> first;
     std::vector<SimulationOrder> rest;
-    for (const auto& order : orders)
+    for (const auto condition : study.conditionsOf(Role::training))
     {
-        if (order.setting.errors.size() == 0)
+        for (const auto& order : Orders(studySimulator, condition).all())
         {
             (order.purpose == "base" ? first : rest).push_back(order);
         }
