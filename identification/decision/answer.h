@@ -3,6 +3,8 @@
 #include "decision/calibration.h"
 #include "emulator/library.h"
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +22,11 @@ enum class Decision
     unknown     // no effect of the library explains the residual
 };
 
-std::string nameOf(Decision decision);
+inline std::string nameOf(Decision decision)
+{
+    constexpr std::array names = {"noResidual", "named", "set", "unknown"};
+    return names[static_cast<std::size_t>(decision)];
+}
 
 /// Result for one effect of the library by itself.
 struct EffectFinding
@@ -38,7 +44,15 @@ struct EffectFinding
 
 /// Whether the amplitude that the data give without its independent measurement agrees with this measurement, to within
 /// two standard deviations; empty where it was not measured.
-std::optional<bool> agreesWithMeasurement(const Effect& effect, const EffectFinding& finding);
+inline std::optional<bool> agreesWithMeasurement(const Effect& effect, const EffectFinding& finding)
+{
+    if (!effect.measured || !finding.alone)
+    {
+        return std::nullopt;
+    }
+    return std::abs(finding.alone->amplitude - effect.measured->mean)
+           <= 2.0 * std::hypot(finding.alone->sd, effect.measured->sd);
+}
 
 /// One explanation: no effect, one or two effects, with the setting that fits best.
 struct Explanation
@@ -53,7 +67,15 @@ struct Explanation
 };
 
 /// Name of an explanation: "no effect", "effect", or "effect with other effect".
-std::string nameOf(const Study& study, const std::vector<std::size_t>& effects);
+inline std::string nameOf(const Study& study, const std::vector<std::size_t>& effects)
+{
+    std::string name;
+    for (const auto e : effects)
+    {
+        name += (name.empty() ? "" : " with ") + study.effects[e].name;
+    }
+    return name.empty() ? "no effect" : name;
+}
 
 /// Result of the training data. Held-out data do not enter it.
 struct Answer

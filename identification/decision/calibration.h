@@ -43,8 +43,8 @@ struct Calibration
     Eigen::VectorXd scatterChiSquares;
     Eigen::VectorXd naming;       // smallest log odds (as in marginOf) at which the effect may be named
     double otherMembership = 0.0; // as `membership`, for an unlisted cause
-    double wrongNames =
-        0.0; // share of detected decoys that get a name, counted on draws that did not set the thresholds
+    /// Share of detected decoys that get a name, counted on draws that did not set the thresholds.
+    double wrongNames = 0.0;
 
     /// Probability, without any effect, of a residual at least as large as that of the data; `leastPValue` at least.
     double pValue(const Odds& odds) const;
@@ -52,10 +52,6 @@ struct Calibration
     /// A fit of an effect with its interval widened to its nominal coverage.
     Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
 };
-
-/// Upper limit of a chi-square, a number of standard deviations above the mean. Both are taken of the cube roots of the
-/// draws, which are nearly normal (Wilson & Hilferty, PNAS 17, 684 (1931)).
-double chiSquareLimit(const std::vector<double>& draws, double sds);
 
 /// An effect explains data if their means and their scatter fit it as well as its own draws do, within these numbers of
 /// standard deviations. The limit for the scatter is tighter, because the scatter of few repeats has a long tail.
@@ -72,52 +68,17 @@ Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);
 /// Amplitude drawn from a distribution and clipped to the effect's range; 1 for a switch.
 double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt19937_64& random);
 
-/// The quantile of draws; the observed data count as one more draw.
-double upperQuantile(std::vector<double> values, double share);
-
 /// Finds the thresholds from synthetic data without effects, with each effect, and with an unlisted cause.
-class Calibrator
-{
-public:
-    Calibrator(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
-        std::mt19937_64& random);
+Calibration calibrate(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
+    std::mt19937_64& random);
 
-    Calibration calibrate();
+/// Largest chi-square at which an explanation fits as well as the draws that contain it, within a number of standard
+/// deviations.
+double largestChiSquare(const Evidence& evidence, const std::vector<Odds>& draws, std::size_t explanation, double sds);
 
-private:
-    struct Draw
-    {
-        std::size_t truth; // effect; the number of effects stands for an unlisted cause
-        Odds odds;
-        Odds without; // odds when the truth is left out of the library
-    };
-
-    void drawNull();
-    void drawEffects();
-    void drawOther();
-    void setMembership();
-    void setNaming();
-
-    /// A draw in whose set one effect is alone.
-    struct Candidate
-    {
-        std::size_t effect;
-        double margin; // as in marginOf
-        double right;  // weight of the draw if the name is right
-        double wrong;  // and if it is wrong
-    };
-    std::vector<Candidate> candidatesOf(const std::vector<Draw>& draws) const;
-    Eigen::VectorXd chosenNaming(std::vector<Candidate> candidates) const;
-    static double wrongNamesAt(const Eigen::VectorXd& thresholds, const std::vector<Candidate>& candidates);
-
-    const Study& study_;
-    const Evidence& evidence_;
-    Replicas& replicas_;
-    const Measured& measured_;
-    std::mt19937_64& random_;
-    std::vector<Draw> detected_;
-    Calibration calibration_;
-};
+/// Sets the membership and the largest chi-squares of an effect or a pair from draws that contain it.
+void setLimits(Calibration& calibration, std::size_t explanation, const std::vector<Odds>& draws, const Study& study,
+    const Evidence& evidence);
 
 /// Whether the data have a residual beyond noise.
 bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds);
@@ -125,8 +86,8 @@ bool isDetected(const Study& study, const Calibration& calibration, const Odds& 
 /// Log prior weight of an effect. The variants of a family share the weight of one effect.
 double logPrior(const Study& study, std::size_t e);
 
-/// Whether two effects are variants of one family.
-bool areVariants(const Study& study, std::size_t one, std::size_t other);
+/// Whether two effects are equal or variants of one family.
+bool shareName(const Study& study, std::size_t one, std::size_t other);
 
 /// Log odds of an effect with all its variants against all other causes.
 double marginOf(const Study& study, const Odds& odds, std::size_t effect);
@@ -138,6 +99,9 @@ double leastGain(const Study& study);
 /// Why an effect does not belong to the set, whatever its probability is; empty if nothing but its probability decides.
 std::string exclusionOf(const Calibration& calibration, const Odds& odds, std::size_t effect);
 
+/// Whether an effect or a pair belongs to the set.
+bool isMember(const Calibration& calibration, const Odds& odds, std::size_t explanation);
+
 /// Effects that belong to the set, most probable first.
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds);
 
@@ -145,7 +109,10 @@ std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& o
 /// belongs to the set too.
 std::optional<std::size_t> soleMember(const Study& study, const Calibration& calibration, const Odds& odds);
 
-/// Odds of all explanations. \param without  an effect that is left out of the library
+/// Odds of explanations with these log prior weights, and of an unlisted cause.
+Odds oddsOf(const Evidences& evidences, const Eigen::VectorXd& logPriors);
+
+/// Odds of all effects. \param without  an effect that is left out of the library
 Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without = static_cast<std::size_t>(-1));
 
 /// Which effects data with these numbers of repeats can show, from synthetic data.

@@ -10,8 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <limits>
 #include <utility>
 
 namespace clepsydra::identification
@@ -77,33 +76,57 @@ double logSumExp(const Eigen::VectorXd& values)
     return std::isfinite(largest) ? largest + std::log((values.array() - largest).exp().sum()) : largest;
 }
 
-const std::vector<double>& Evidence::sizes()
+double logSpread(double trace, double numbers, double freedom)
 {
-    static const std::vector<double> all = {0.15, 0.3, 0.6, 1.2};
-    return all;
+    return std::lgamma((freedom + numbers) / 2.0) - std::lgamma(freedom / 2.0) + freedom / 2.0 * std::log(freedom / 2.0)
+           - (freedom + numbers) / 2.0 * std::log((freedom + trace) / 2.0);
 }
 
-Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around)
+double traceOf(const Eigen::MatrixXd& w, const Eigen::MatrixXd& s)
+{
+    return w.lazyProduct(s).cwiseProduct(w).sum();
+}
+
+double logDeterminantOf(const Eigen::LLT<Eigen::MatrixXd>& factor)
+{
+    return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around,
+    const Places& places)
     : study_(study),
       emulator_(emulator),
       layout_(layout),
-      parts_(partsOf(layout)),
+      parts_(layout.sharesErrors ? std::vector<Part>{{0, layout.rows}}
+                                 : mapped(layout.blocks,
+                                     [](const Layout::Block& block) {
+                                         return Part{block.first, block.size()};
+                                     })),
       around_(around),
-      workspace_{Eigen::VectorXd(layout.rows), Eigen::VectorXd(layout.rows), Eigen::ArrayXd(layout.rows),
-          Eigen::MatrixXd(layout.rows, study.parameters.size())},
+      places_(places),
+      lower_(study.parameters.size()),
+      upper_(study.parameters.size()),
+      data_(layout.rows),
+      residual_(layout.rows),
+      weight_(layout.rows),
+      slope_(layout.rows, study.parameters.size()),
       null_(nodeAt({})),
       effects_(study.effects.size())
 {
-    prepare();
-}
-
-std::vector<Evidence::Part> Evidence::partsOf(const Layout& layout)
-{
-    if (layout.sharesErrors)
+    for (Eigen::Index i = 0; i < lower_.size(); ++i)
     {
-        return {{0, layout.rows}};
+        const auto [lower, upper] = study.parameters[i].boundsInSds();
+        lower_(i) = lower;
+        upper_(i) = upper;
     }
-    return mapped(layout.blocks, [](const Layout::Block& block) { return Part{block.first, block.size()}; });
+    for (std::size_t e = 0; e < effects_.size(); ++e)
+    {
+        if (emulator_.knows(e))
+        {
+            effects_[e] = explanationOf({e});
+        }
+    }
+    prepareOther();
 }
 
 void Evidence::transformTo(const Node& node, const Eigen::VectorXd& values, Eigen::VectorXd& transformed) const
@@ -118,41 +141,6 @@ void Evidence::transformTo(const Node& node, const Eigen::VectorXd& values, Eige
             part += values(first + column) * node.transform[p].col(column);
         }
     }
-}
-
-void Evidence::prepare()
-{
-    const Eigen::Index q = study_.parameters.size();
-    lower_.resize(q);
-    upper_.resize(q);
-    for (Eigen::Index i = 0; i < q; ++i)
-    {
-        const auto [lower, upper] = study_.parameters[i].boundsInSds();
-        lower_(i) = lower;
-        upper_(i) = upper;
-    }
-    for (std::size_t e = 0; e < effects_.size(); ++e)
-    {
-        if (emulator_.knows(e))
-        {
-            effects_[e] = explanationOf({e});
-        }
-    }
-    prepareOther();
-}
-
-Evidence::Evidence(const Evidence& like, const Emulator& emulator)
-    : study_(like.study_),
-      emulator_(emulator),
-      layout_(like.layout_),
-      parts_(like.parts_),
-      around_(like.around_),
-      places_(like.places_),
-      workspace_(like.workspace_),
-      null_(nodeAt({})),
-      effects_(like.effects_.size())
-{
-    prepare();
 }
 
 void Evidence::refine(const Measured& measured)
@@ -186,33 +174,28 @@ void Evidence::addNodes(const std::vector<std::size_t>& effects, const Measured&
         const Explanation explanation = explanationOf(effects);
         const Judgement found = judge(explanation, measured);
         std::vector<Present> present;
-        for (std::size_t k = 0; k < effects.size(); ++k)
-        {
-            present.push_back({effects[k], found.amplitudes[k]});
-        }
-        const Node node = nodeAt(present);
-        const Spread spread = spreadOf(node, measured);
-        const Solution there = solve(node, spread.factor, measured);
-        if (found.peak <= logLikelihood(there.chiSquare, there.logVolume) + spread.logLikelihood + tolerance)
-        {
-            return;
-        }
-        auto& added = places_[effects].added;
+        auto added = places_[effects].added;
         added.resize(effects.size());
         bool isNew = false;
         for (std::size_t k = 0; k < effects.size(); ++k)
         {
-            const Eigen::ArrayXd distances = (explanation.grids[k].amplitudes().array() - found.amplitudes[k]).abs();
+            present.push_back({effects[k], found.amplitudes[k]});
+            const Eigen::ArrayXd distances = (explanation.grids[k].amplitudes.array() - found.amplitudes[k]).abs();
             if (distances.minCoeff() > 1e-9 * study_.effects[effects[k]].bounds.reach())
             {
                 added[k].push_back(found.amplitudes[k]);
                 isNew = true;
             }
         }
-        if (!isNew)
+        const Node node = nodeAt(present);
+        const Spread spread = spreadOf(node, measured);
+        const Solution there = solve(node, spread.factor, measured);
+        const double evaluated = logLikelihood(there.chiSquare, there.logVolume) + spread.logLikelihood;
+        if (!isNew || found.peak <= evaluated + tolerance)
         {
             return;
         }
+        places_[effects].added = added;
     }
 }
 
@@ -250,16 +233,9 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         allExtra.block(block.first, block.first, block.size(), block.size()) =
             Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.declared;
         node.terms.middleRows(block.first, block.size()) = emulator.mean(present, here)(places, Eigen::all);
-        if (block.freedom > 0.0)
-        {
-            const Eigen::LLT<Eigen::MatrixXd> one(single);
-            node.whiten.emplace_back(one.matrixL().solve(Eigen::MatrixXd::Identity(single.rows(), single.rows())));
-            node.spreadLogDeterminant += block.freedom * 2.0 * one.matrixLLT().diagonal().array().log().sum();
-        }
-        else
-        {
-            node.whiten.emplace_back(Eigen::MatrixXd::Zero(single.rows(), single.rows()));
-        }
+        const Eigen::LLT<Eigen::MatrixXd> factor(single);
+        node.whiten.emplace_back(factor.matrixL().solve(Eigen::MatrixXd::Identity(single.rows(), single.rows())));
+        node.spreadLogDeterminant += block.freedom > 0.0 ? block.freedom * logDeterminantOf(factor) : 0.0;
         const auto any = [&](auto has) {
             return std::any_of(present.begin(), present.end(),
                 [&](const Present& one) { return one.amplitude != 0.0 && has(one.effect); });
@@ -267,15 +243,11 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         node.scatters.push_back(any([&](std::size_t effect) { return emulator.logScatter.count(effect) > 0; }));
         node.scattersAnywhere = node.scattersAnywhere || any([&](std::size_t e) { return emulator.scatters(e); });
     }
-    if (layout_.sharesErrors)
+    for (const auto& one : layout_.blocks)
     {
-        for (const auto& one : layout_.blocks)
+        for (const auto& other : layout_.blocks)
         {
-            for (const auto& other : layout_.blocks)
-            {
-                allExtra.block(one.first, other.first, one.size(), other.size()) +=
-                    one.shared * other.shared.transpose();
-            }
+            allExtra.block(one.first, other.first, one.size(), other.size()) += one.shared * other.shared.transpose();
         }
     }
     for (const auto& [first, size] : parts_)
@@ -289,7 +261,7 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(half * extra * half.transpose());
         node.transform.emplace_back(eigen.eigenvectors().transpose() * half);
         node.extra.segment(first, size) = eigen.eigenvalues().cwiseMax(0.0);
-        node.logDeterminant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+        node.logDeterminant += logDeterminantOf(factor);
         node.terms.middleRows(first, size) = (node.transform.back() * node.terms.middleRows(first, size)).eval();
     }
     return node;
@@ -308,7 +280,7 @@ Evidence::Explanation Evidence::explanationOf(const std::vector<std::size_t>& ef
         const auto before = std::exchange(settings, {});
         for (const auto& setting : before)
         {
-            for (const double amplitude : explanation.grids.back().amplitudes())
+            for (const double amplitude : explanation.grids.back().amplitudes)
             {
                 settings.push_back(setting);
                 settings.back().push_back({e, amplitude});
@@ -349,18 +321,16 @@ Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) 
 Evidence::Solution Evidence::solve(const Node& node, double factor, const Measured& measured) const
 {
     const Eigen::Index q = study_.parameters.size();
-    // Called a million times for one data set, therefore no memory is allocated here.
-    Eigen::VectorXd& y = workspace_.data;
-    Eigen::VectorXd& r = workspace_.residual;
-    Eigen::ArrayXd& weight = workspace_.weight;
-    Eigen::MatrixXd& slope = workspace_.slope;
-    transformTo(node, measured.mean, y);
+    Eigen::VectorXd& r = residual_;
+    Eigen::ArrayXd& weight = weight_;
+    Eigen::MatrixXd& slope = slope_;
+    transformTo(node, measured.mean, data_);
     weight = (node.extra.array() + factor).inverse();
     Solution solution;
     solution.parameters.setZero(q);
     FewNumbers& t = solution.parameters;
     const auto residual = [&] {
-        r = y - node.terms.col(0);
+        r = data_ - node.terms.col(0);
         for (Eigen::Index i = 0; i < q; ++i)
         {
             r -= t(i) * node.terms.col(1 + i);
@@ -433,10 +403,11 @@ double Evidence::largestChiSquare(double sds) const
     return rows * fisherValueBeyond(probabilityBeyondNormal(sds), rows, layout_.noiseFreedom);
 }
 
-double Evidence::chanceOfChiSquare(double chiSquare) const
+std::optional<double> Evidence::chanceOfChiSquare(double chiSquare) const
 {
     const auto rows = static_cast<double>(layout_.rows);
-    return isExact() ? probabilityBeyondFisher(chiSquare / rows, rows, layout_.noiseFreedom) : 1.0;
+    return emulator_.scatters() ? std::nullopt
+                                : std::optional(probabilityBeyondFisher(chiSquare / rows, rows, layout_.noiseFreedom));
 }
 
 /// Likelihood with an estimated covariance: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
@@ -448,11 +419,11 @@ double Evidence::logLikelihood(double chiSquare, double logVolume) const
 
 Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const
 {
-    const auto rows = explanation.grids.size() > 1 ? explanation.grids.back().amplitudes().size() : 1;
-    const auto columns = explanation.grids.front().amplitudes().size();
-    const Eigen::MatrixXd empty(rows, columns);
-    AtNodes found{empty, empty, empty, Eigen::MatrixXd(study_.parameters.size(), rows * columns)};
-    for (Eigen::Index i = 0; i < found.chiSquares.size(); ++i)
+    const Eigen::Index count = explanation.nodes.size();
+    const Eigen::Index columns = explanation.grids.front().amplitudes.size();
+    const Eigen::MatrixXd empty(count / columns, columns);
+    AtNodes found{empty, empty, empty, Eigen::MatrixXd(study_.parameters.size(), count)};
+    for (Eigen::Index i = 0; i < count; ++i)
     {
         const Node& node = explanation.nodes[i];
         const Spread spread = node.scattersAnywhere ? spreadOf(node, measured) : usual;
@@ -469,22 +440,19 @@ Evidence::Posterior Evidence::over(
     const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const
 {
     Posterior posterior;
-    auto& weights = posterior.weights;
-    std::vector<Eigen::VectorXd> priors; // log probability of each cell of amplitudes, by effect
+    auto& [first, second] = posterior.axes;
     for (std::size_t k = 0; k < looked.size(); ++k)
     {
         const Effect& effect = study_.effects[explanation.effects[k]];
-        const Eigen::Index steps = effect.isSwitch ? 1 : fineSteps;
-        const auto [lower, upper] = looked[k];
-        const double cell = (upper - lower) / static_cast<double>(steps);
-        posterior.amplitudes.emplace_back(Eigen::VectorXd::LinSpaced(
-            steps, effect.isSwitch ? 1.0 : lower + cell / 2.0, effect.isSwitch ? 1.0 : upper - cell / 2.0));
-        weights.push_back(explanation.grids[k].weightsAt(posterior.amplitudes.back()));
-        priors.push_back(
-            effect.isSwitch
-                ? Eigen::VectorXd::Zero(1)
-                : Eigen::VectorXd(
-                    logDensity(effect, posterior.amplitudes.back(), explanation.usesMeasurements) + std::log(cell)));
+        if (!effect.isSwitch)
+        {
+            const auto [lower, upper] = looked[k];
+            const double cell = (upper - lower) / static_cast<double>(fineSteps);
+            Axis& axis = posterior.axes[k];
+            axis.amplitudes = Eigen::VectorXd::LinSpaced(fineSteps, lower + cell / 2.0, upper - cell / 2.0);
+            axis.weights = explanation.grids[k].weightsAt(axis.amplitudes);
+            axis.logPriors = logDensity(effect, axis.amplitudes, explanation.usesMeasurements) + std::log(cell);
+        }
     }
     // The chi-square is interpolated, since it is nearly a parabola in the amplitude; the likelihood may have a peak
     // that is narrower than the distance between nodes.
@@ -495,59 +463,44 @@ Evidence::Posterior Evidence::over(
     {
         posterior.logs(i) = logLikelihood(std::max(0.0, chiSquare(i)), volume(i));
     }
-    posterior.logs.colwise() += priors.front();
-    if (priors.size() > 1)
-    {
-        posterior.logs.rowwise() += priors.back().transpose();
-    }
+    posterior.logs.colwise() += first.logPriors;
+    posterior.logs.rowwise() += second.logPriors.transpose();
     Eigen::Index row = 0;
     Eigen::Index column = 0;
     const double highest = posterior.logs.maxCoeff(&row, &column);
     posterior.judgement = {logSumExp(posterior.logs.reshaped()), chiSquare(row, column),
-        posterior.interpolated(nodes.scatterChiSquares)(row, column), highest - priors.front()(row),
-        {posterior.amplitudes.front()(row)}};
-    if (priors.size() > 1)
-    {
-        posterior.judgement.peak -= priors.back()(column);
-        posterior.judgement.amplitudes.push_back(posterior.amplitudes.back()(column));
-    }
+        posterior.interpolated(nodes.scatterChiSquares)(row, column),
+        highest - first.logPriors(row) - second.logPriors(column), {first.amplitudes(row), second.amplitudes(column)}};
     return posterior;
-}
-
-std::vector<Bounds> Evidence::likelyPart(const Posterior& posterior, const std::vector<Bounds>& ranges)
-{
-    const double least = posterior.logs.maxCoeff() + unlikely;
-    std::vector<Bounds> part;
-    for (std::size_t k = 0; k < ranges.size(); ++k)
-    {
-        const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(posterior.logs.rowwise().maxCoeff())
-                                             : Eigen::VectorXd(posterior.logs.colwise().maxCoeff());
-        const Eigen::VectorXd& a = posterior.amplitudes[k];
-        const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // one step beyond the likely part
-        const auto [lower, upper] = ranges[k];
-        part.push_back({upper, lower});
-        for (Eigen::Index i = 0; i < a.size(); ++i)
-        {
-            if (along(i) > least)
-            {
-                part.back().lower = std::max(lower, std::min(part.back().lower, a(i) - margin));
-                part.back().upper = std::min(upper, std::max(part.back().upper, a(i) + margin));
-            }
-        }
-    }
-    return part;
 }
 
 Eigen::MatrixXd Evidence::Posterior::interpolated(const Eigen::MatrixXd& atNodes) const
 {
-    const Eigen::MatrixXd byFirst = weights.front() * atNodes.transpose();
-    return weights.size() > 1 ? Eigen::MatrixXd(byFirst * weights.back().transpose()) : byFirst;
+    return axes[0].weights * atNodes.transpose() * axes[1].weights.transpose();
 }
 
 Evidence::Posterior Evidence::posterior(const Explanation& explanation, const AtNodes& nodes) const
 {
-    const auto ranges = mapped(explanation.effects, [&](std::size_t e) { return study_.effects[e].bounds; });
-    return over(explanation, nodes, likelyPart(over(explanation, nodes, ranges), ranges));
+    auto ranges = mapped(explanation.effects, [&](std::size_t e) { return study_.effects[e].bounds; });
+    const Posterior whole = over(explanation, nodes, ranges);
+    const double least = whole.logs.maxCoeff() + unlikely;
+    for (std::size_t k = 0; k < ranges.size(); ++k)
+    {
+        const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(whole.logs.rowwise().maxCoeff())
+                                             : Eigen::VectorXd(whole.logs.colwise().maxCoeff());
+        const Eigen::VectorXd& a = whole.axes[k].amplitudes;
+        const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // one step beyond the likely part
+        const auto [lower, upper] = std::exchange(ranges[k], {ranges[k].upper, ranges[k].lower});
+        for (Eigen::Index i = 0; i < a.size(); ++i)
+        {
+            if (along(i) > least)
+            {
+                ranges[k].lower = std::max(lower, std::min(ranges[k].lower, a(i) - margin));
+                ranges[k].upper = std::min(upper, std::max(ranges[k].upper, a(i) + margin));
+            }
+        }
+    }
+    return over(explanation, nodes, ranges);
 }
 
 Evidence::Judgement Evidence::judge(const Explanation& explanation, const Measured& measured) const
@@ -555,31 +508,24 @@ Evidence::Judgement Evidence::judge(const Explanation& explanation, const Measur
     return posterior(explanation, atNodes(explanation, measured, spreadOf(null_, measured))).judgement;
 }
 
-Evidences Evidence::operator()(const Measured& measured) const
+Evidences Evidence::compare(const std::vector<Explanation>& explanations, const Measured& measured) const
 {
-    Evidences evidences;
     const Spread usual = spreadOf(null_, measured);
     const Solution null = solve(null_, usual.factor, measured);
-    evidences.null = logLikelihood(null.chiSquare, null.logVolume) + usual.logLikelihood;
-    evidences.effects.setConstant(effects_.size(), -std::numeric_limits<double>::infinity());
-    evidences.chiSquares.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
-    evidences.scatterChiSquares = evidences.chiSquares;
-    evidences.peaks = evidences.effects;
-    for (std::size_t e = 0; e < effects_.size(); ++e)
+    const Eigen::VectorXd infinite =
+        Eigen::VectorXd::Constant(explanations.size(), std::numeric_limits<double>::infinity());
+    Evidences evidences{logLikelihood(null.chiSquare, null.logVolume) + usual.logLikelihood, -infinite,
+        otherEvidence(measured, usual, null), infinite, infinite, -infinite, chanceOfChiSquare(null.chiSquare)};
+    for (std::size_t e = 0; e < explanations.size(); ++e)
     {
-        if (!effects_[e].nodes.empty())
+        if (!explanations[e].nodes.empty())
         {
-            const Judgement found = posterior(effects_[e], atNodes(effects_[e], measured, usual)).judgement;
+            const Judgement found = posterior(explanations[e], atNodes(explanations[e], measured, usual)).judgement;
             evidences.effects(e) = found.logEvidence;
             evidences.chiSquares(e) = found.chiSquare;
             evidences.scatterChiSquares(e) = found.scatterChiSquare;
             evidences.peaks(e) = found.peak;
         }
-    }
-    evidences.other = otherEvidence(measured, usual, null);
-    if (isExact())
-    {
-        evidences.chanceOfChiSquare = chanceOfChiSquare(null.chiSquare);
     }
     return evidences;
 }

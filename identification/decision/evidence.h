@@ -2,10 +2,10 @@
 
 #include "decision/measured.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include <cmath>
-#include <limits>
+#include <array>
 #include <map>
 #include <optional>
 #include <random>
@@ -19,9 +19,9 @@ namespace clepsydra::identification
 struct Evidences
 {
     double null = 0.0;
-    Eigen::VectorXd effects; // by effect of the study; -infinity if all runs of an effect have failed
+    Eigen::VectorXd effects; // by effect of the study, or by pair; -infinity if all runs of an effect have failed
     double other = 0.0;      // of an unlisted cause
-    // Of each effect at its most likely amplitude:
+    // Of each effect or pair at its most likely amplitudes:
     Eigen::VectorXd chiSquares;        // of the means, as in `Fit`
     Eigen::VectorXd scatterChiSquares; // of the spread between repeats, if the effect changes it
     Eigen::VectorXd peaks;             // log likelihood
@@ -69,10 +69,14 @@ class Evidence
 {
 public:
     /// \param around  parameters [prior standard deviations] at which the emulator's uncertainty is taken
-    Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around);
+    Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around)
+        : Evidence(study, emulator, layout, around, {})
+    {}
 
     /// The same explanations according to another emulator.
-    Evidence(const Evidence& like, const Emulator& emulator);
+    Evidence(const Evidence& like, const Emulator& emulator)
+        : Evidence(like.study_, emulator, like.layout_, like.around_, like.places_)
+    {}
 
     /// Evaluates the emulator for each effect (or for several at once) near the parameters that fit best with it, which
     /// may be far from those of the null fit. Where the chi-square that is interpolated between the nodes has a minimum
@@ -80,24 +84,18 @@ public:
     void refine(const Measured& measured);
     void refine(const std::vector<std::size_t>& effects, const Measured& measured);
 
-    /// Whether runs do not scatter.
-    bool isExact() const
-    {
-        return !emulator_.scatters();
-    }
-
     /// Upper limit of the chi-square of the true explanation, at the tail probability of a number of standard
     /// deviations of a normal distribution.
     double largestChiSquare(double sds) const;
 
-    /// Probability that noise alone makes the chi-square as large; 1 if runs scatter, because then synthetic data give
-    /// it.
-    double chanceOfChiSquare(double chiSquare) const;
+    /// Probability that noise alone makes the chi-square as large; empty if runs scatter, because then synthetic data
+    /// give it.
+    std::optional<double> chanceOfChiSquare(double chiSquare) const;
 
-    Evidences operator()(const Measured& measured) const;
-
-    /// Log evidence of an unlisted cause.
-    double otherEvidence(const Measured& measured) const;
+    Evidences operator()(const Measured& measured) const
+    {
+        return compare(effects_, measured);
+    }
 
     /// Best fit without effects, and with one effect.
     Fit fitNull(const Measured& measured) const;
@@ -114,14 +112,16 @@ public:
         bool usesMeasurements = true; // of amplitudes, as their priors
     };
     Explanation explanationOf(const std::vector<std::size_t>& effects) const;
+    /// As for the library's effects, but of other explanations.
+    Evidences compare(const std::vector<Explanation>& explanations, const Measured& measured) const;
 
     struct Judgement
     {
         double logEvidence = 0.0;
         double chiSquare = 0.0; // at the most likely amplitudes, as in `Evidences`
         double scatterChiSquare = 0.0;
-        double peak = 0.0;              // log likelihood at the most likely amplitudes
-        std::vector<double> amplitudes; // the most likely ones, by effect
+        double peak = 0.0;                  // log likelihood at the most likely amplitudes
+        std::array<double, 2> amplitudes{}; // the most likely ones, by effect
     };
     Judgement judge(const Explanation& explanation, const Measured& measured) const;
     /// Fits of the explanation's effects, by effect. Their parameters are equal.
@@ -148,7 +148,7 @@ public:
     Eigen::VectorXd drawOther(double size, std::mt19937_64& random) const;
 
     /// Sizes of the unlisted cause, as multiples of the library's effects.
-    static const std::vector<double>& sizes();
+    static constexpr std::array<double, 4> sizes = {0.15, 0.3, 0.6, 1.2};
 
 private:
     struct Spread
@@ -160,14 +160,6 @@ private:
 
     using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, mostParameters, 1>;
     using FewSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, mostParameters, mostParameters>;
-
-    struct Workspace
-    {
-        Eigen::VectorXd data;
-        Eigen::VectorXd residual;
-        Eigen::ArrayXd weight;
-        Eigen::MatrixXd slope;
-    };
 
     struct Solution
     {
@@ -185,13 +177,11 @@ private:
         std::vector<std::vector<double>> added; // amplitudes of nodes beside the equidistant ones, by effect
     };
 
-    struct Discrepancy
-    {
-        Eigen::MatrixXd root; // lower Cholesky factor of the covariance, in the coordinates of the null
-        double logDeterminant = 0.0;
-    };
+    using Places = std::map<std::vector<std::size_t>, Place>; // by the effects that are switched on
 
-    void prepare();
+    Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around,
+        const Places& places);
+
     void prepareOther();
     void addNodes(const std::vector<std::size_t>& effects, const Measured& measured);
     Spread spreadOf(const Node& node, const Measured& measured) const;
@@ -199,12 +189,20 @@ private:
     Solution solve(const Node& node, double factor, const Measured& measured) const;
     void fitParameters(const Node& node, const Measured& measured, Fit& fit) const;
     double logLikelihood(double chiSquare, double logVolume) const;
-    /// Posterior over the likely amplitudes of the first effect and, if there is one, of the second.
+
+    /// Amplitudes of one effect; a single one for a switch and for the second effect where there is only one.
+    struct Axis
+    {
+        Eigen::VectorXd amplitudes = Eigen::VectorXd::Ones(1); // equidistant
+        Eigen::MatrixXd weights = Eigen::MatrixXd::Ones(1, 1); // interpolation weights of the nodes
+        Eigen::VectorXd logPriors = Eigen::VectorXd::Zero(1);  // log probability of each amplitude's cell
+    };
+
+    /// Posterior over the likely amplitudes of the first and of the second effect.
     struct Posterior
     {
-        std::vector<Eigen::VectorXd> amplitudes; // by effect, equidistant
-        std::vector<Eigen::MatrixXd> weights;    // interpolation weights of the nodes, by effect
-        Eigen::MatrixXd logs;                    // log of the posterior, not normalised
+        std::array<Axis, 2> axes;
+        Eigen::MatrixXd logs; // log of the posterior, not normalised
         Judgement judgement;
 
         Eigen::MatrixXd interpolated(const Eigen::MatrixXd& atNodes) const;
@@ -223,8 +221,6 @@ private:
     /// \param looked  range of amplitudes of each effect
     Posterior over(const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const;
     Posterior posterior(const Explanation& explanation, const AtNodes& nodes) const;
-    static std::vector<Bounds> likelyPart(const Posterior& posterior, const std::vector<Bounds>& ranges);
-
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
     /// Rows with correlated errors: those of one block, or all rows if common errors connect the blocks.
@@ -234,7 +230,6 @@ private:
         Eigen::Index size;
     };
 
-    static std::vector<Part> partsOf(const Layout& layout);
     /// Transforms measured values, or values arranged like them, into the coordinates of a node.
     void transformTo(const Node& node, const Eigen::VectorXd& values, Eigen::VectorXd& transformed) const;
 
@@ -243,14 +238,18 @@ private:
     const Layout& layout_;
     std::vector<Part> parts_;
     Eigen::VectorXd around_;
-    std::map<std::vector<std::size_t>, Place> places_; // by the effects that are switched on
-    FewNumbers lower_;                                 // limits of the parameters' ranges
+    Places places_;
+    FewNumbers lower_; // limits of the parameters' ranges
     FewNumbers upper_;
-    mutable Workspace workspace_;
+    // Memory for `solve`, which is called a million times for one data set.
+    mutable Eigen::VectorXd data_;
+    mutable Eigen::VectorXd residual_;
+    mutable Eigen::ArrayXd weight_;
+    mutable Eigen::MatrixXd slope_;
     Node null_;
     std::vector<Explanation> effects_;
-    std::vector<Discrepancy> other_;
-    Eigen::MatrixXd otherRoot_; // of a discrepancy of size 1
+    std::vector<Eigen::LLT<Eigen::MatrixXd>> other_; // covariance of the discrepancy of each size, for the null
+    Eigen::MatrixXd otherRoot_;                      // of a discrepancy of size 1
 };
 
 /// Log of the sum of exponentials, without overflow.
@@ -258,16 +257,11 @@ double logSumExp(const Eigen::VectorXd& values);
 
 /// Log density of a sum of squares, averaged over a common factor on the variance with an inverse gamma prior. Terms
 /// that are equal for all explanations are left out.
-inline double logSpread(double trace, double numbers, double freedom)
-{
-    return std::lgamma((freedom + numbers) / 2.0) - std::lgamma(freedom / 2.0) + freedom / 2.0 * std::log(freedom / 2.0)
-           - (freedom + numbers) / 2.0 * std::log((freedom + trace) / 2.0);
-}
+double logSpread(double trace, double numbers, double freedom);
 
 /// Trace of w s w'.
-inline double traceOf(const Eigen::MatrixXd& w, const Eigen::MatrixXd& s)
-{
-    return w.lazyProduct(s).cwiseProduct(w).sum();
-}
+double traceOf(const Eigen::MatrixXd& w, const Eigen::MatrixXd& s);
+
+double logDeterminantOf(const Eigen::LLT<Eigen::MatrixXd>& factor);
 
 } // namespace clepsydra::identification

@@ -52,7 +52,7 @@ std::vector<double> Evidence::amplitudes(std::size_t effect) const
         return {};
     }
     const Grid grid(study_.effects[effect]);
-    return {grid.amplitudes().begin(), grid.amplitudes().end()};
+    return {grid.amplitudes.begin(), grid.amplitudes.end()};
 }
 
 Fit Evidence::fitNull(const Measured& measured) const
@@ -93,7 +93,7 @@ std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& 
     std::vector<Present> present;
     for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
-        all.push_back(marginal(found.amplitudes[k],
+        all.push_back(marginal(found.axes[k].amplitudes,
             k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum()),
             study_.effects[explanation.effects[k]]));
         present.push_back({explanation.effects[k], all.back().amplitude});

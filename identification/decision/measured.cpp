@@ -18,28 +18,25 @@ namespace
 /// Degrees of freedom of a declared error, which counts as known.
 constexpr double asGoodAsKnown = 1e6;
 
-/// The repeats that have all features of a block.
-Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
-{
-    const auto complete =
-        numbersWhere(features.rows(), [&](Eigen::Index row) { return features.row(row).array().isFinite().all(); });
-    return features(complete, Eigen::all);
-}
+/// Degrees of freedom of repeats from which the noise is estimated.
+constexpr double leastFreedom = 2.0;
 
 /// Requires that each measured feature has an error: without one, every difference from it would be a residual.
-/// \param deviations  of all training repeats from their means; empty if there are too few to estimate the noise
-void requireErrors(const Study& study, const MeasuredCondition& data, const std::string& condition,
-    const std::vector<Eigen::Index>& features, const Eigen::MatrixXd& deviations)
+/// \param repeats  of all training conditions
+void requireErrors(const Study& study, const MeasuredCondition& data, std::size_t condition,
+    const std::vector<Eigen::Index>& features, const Scatter& repeats)
 {
     const Eigen::VectorXd mean = meanFeatures(data.features);
     for (const auto f : features)
     {
-        const Eigen::ArrayXd spread =
-            deviations.rows() > 0 ? Eigen::ArrayXd(deviations.col(f).array().abs()) : Eigen::ArrayXd();
-        const bool scatters = (spread.isFinite() && spread > 1e-12 * std::abs(mean(f))).any();
+        const auto isSpread = [&](double deviation) {
+            return std::isfinite(deviation) && std::abs(deviation) > 1e-12 * std::abs(mean(f));
+        };
+        const bool scatters = repeats.freedom >= leastFreedom && repeats.deviations.col(f).unaryExpr(isSpread).any();
         if (std::isfinite(mean(f)) && !scatters && data.declaredError(f) == 0.0 && study.modelError(f) == 0.0)
         {
-            throw std::runtime_error(study.file.string() + ": condition '" + condition + "': '" + study.features[f].name
+            throw std::runtime_error(study.file.string() + ": condition '" + study.conditions[condition].name + "': '"
+                                     + study.features[f].name
                                      + "' would count as exact; allowed: training measurements of it whose repeats "
                                        "differ, a relativeError or standardError of its numbers, or its modelError");
         }
@@ -55,12 +52,6 @@ Scatter repeatsOf(const std::vector<MeasuredCondition>& data, const std::vector<
         repeats.add(data[c].features);
     }
     return repeats;
-}
-
-/// Whether there are enough repeats to estimate the noise.
-bool showNoise(const Scatter& repeats)
-{
-    return repeats.degreesOfFreedom() >= 2.0;
 }
 
 } // namespace
@@ -132,14 +123,13 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
     std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(measured),
         [&](std::size_t c) { return !data[c].isPlanned; });
     const Scatter repeats = repeatsOf(data, measured);
-    if (showNoise(repeats))
+    if (repeats.freedom >= leastFreedom)
     {
-        const Eigen::MatrixXd deviations = repeats.deviations();
         for (const auto c : learnt ? measured : std::vector<std::size_t>{})
         {
-            requireErrors(study, data[c], study.conditions[c].name, (*learnt)[c]->features, deviations);
+            requireErrors(study, data[c], c, (*learnt)[c]->features, repeats);
         }
-        return pooledCovariance(deviations, repeats.degreesOfFreedom());
+        return pooledCovariance(repeats);
     }
     if (!std::all_of(measured.begin(), measured.end(), [&](std::size_t c) { return hasDeclaredErrors(data[c]); }))
     {
@@ -147,7 +137,7 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
                                  "(at least two more measurements than conditions are needed, or a relativeError or "
                                  "standardError of every measured value)");
     }
-    return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown, 0.0};
+    return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown};
 }
 
 void requireHeldOutErrors(
@@ -157,8 +147,7 @@ void requireHeldOutErrors(
     const auto all = numbersWhere(study.featureCount(), [](Eigen::Index) { return true; });
     for (const auto c : study.conditionsOf(Role::heldOut))
     {
-        requireErrors(study, heldOut[c], study.conditions[c].name, all,
-            showNoise(repeats) ? repeats.deviations() : Eigen::MatrixXd());
+        requireErrors(study, heldOut[c], c, all, repeats);
     }
 }
 
@@ -168,9 +157,9 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
     Layout layout;
     Measured measured;
     const auto learnt = numbersWhere(data.size(), [&](std::size_t c) { return emulator[c].has_value(); });
-    const Covariance noise = emulator.scatters() ? Covariance{emulator.noise(), emulator.degreesOfFreedom(), 0.0}
+    const Covariance noise = emulator.scatters() ? Covariance{emulator.noise(), emulator.degreesOfFreedom()}
                                                  : ownNoise(study, data, learnt, &emulator);
-    layout.noiseFreedom = noise.nu;
+    layout.noiseFreedom = noise.freedom;
     layout.noise = noise.matrix;
     for (const auto c : learnt)
     {
@@ -194,7 +183,10 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
         Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(block.size(), block.size());
         if (emulator.scatters())
         {
-            const Eigen::MatrixXd rows = completeRows(data[c].features(Eigen::all, kept));
+            const Eigen::MatrixXd repeats = data[c].features(Eigen::all, kept);
+            const auto complete = numbersWhere(
+                repeats.rows(), [&](Eigen::Index row) { return repeats.row(row).array().isFinite().all(); });
+            const Eigen::MatrixXd rows = repeats(complete, Eigen::all);
             if (rows.rows() > 1)
             {
                 const Eigen::MatrixXd deviations = rows.rowwise() - Eigen::RowVectorXd(rows.colwise().mean());

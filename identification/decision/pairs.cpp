@@ -30,40 +30,13 @@ bool replaces(const Effect& effect, const std::string& entry)
 
 bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one, std::size_t other)
 {
-    return !areVariants(study, one, other) && !undoEachOther(study.effects[one], study.effects[other])
+    return !shareName(study, one, other) && !undoEachOther(study.effects[one], study.effects[other])
            && !evidence.amplitudes(one).empty() && !evidence.amplitudes(other).empty();
 }
-
-bool isOrVaries(const Study& study, std::size_t one, std::size_t other)
-{
-    return one == other || areVariants(study, one, other);
-}
-
-/// How pairs compare with each other and with an unlisted cause.
-struct Verdict
-{
-    std::vector<Evidence::Judgement> judgements; // by pair
-    Eigen::VectorXd probabilities;               // by pair; the last is that of an unlisted cause
-};
 
 std::vector<Evidence::Explanation> explanationsOf(const Evidence& evidence, const std::vector<PairFinding>& pairs)
 {
     return mapped(pairs, [&](const PairFinding& pair) { return evidence.explanationOf(pair.effects); });
-}
-
-Verdict verdictOf(const Evidence& evidence, const std::vector<Evidence::Explanation>& explanations,
-    const std::vector<PairFinding>& pairs, const Measured& data)
-{
-    Verdict verdict;
-    Eigen::VectorXd logs(static_cast<Eigen::Index>(pairs.size()) + 1);
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-    {
-        verdict.judgements.push_back(evidence.judge(explanations[i], data));
-        logs(i) = verdict.judgements.back().logEvidence + pairs[i].logPrior;
-    }
-    logs.tail<1>()(0) = evidence.otherEvidence(data);
-    verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
-    return verdict;
 }
 
 /// Amplitudes drawn from a pair's fit, clipped to their ranges.
@@ -78,24 +51,24 @@ std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt1
     return present;
 }
 
-} // namespace
-
-bool areVariants(const Study& study, const PairFinding& one, const PairFinding& other)
+/// Whether the effects of two pairs are equal or variants of each other.
+bool shareName(const Study& study, const PairFinding& one, const PairFinding& other)
 {
-    const std::size_t first = other.effects.front();
-    const std::size_t second = other.effects.back();
-    return (isOrVaries(study, one.effects.front(), first) && isOrVaries(study, one.effects.back(), second))
-           || (isOrVaries(study, one.effects.front(), second) && isOrVaries(study, one.effects.back(), first));
+    const auto match = [&](std::size_t first, std::size_t second) {
+        return shareName(study, one.effects.front(), first) && shareName(study, one.effects.back(), second);
+    };
+    return match(other.effects.front(), other.effects.back()) || match(other.effects.back(), other.effects.front());
 }
+
+} // namespace
 
 std::string sharedName(const Study& study, const std::vector<PairFinding>& pairs)
 {
     std::string name;
     for (const auto e : pairs.front().effects)
     {
-        const bool isShared = std::all_of(pairs.begin(), pairs.end(), [&](const PairFinding& pair) {
-            return !pair.inSet || std::count(pair.effects.begin(), pair.effects.end(), e) > 0;
-        });
+        const bool isShared = std::all_of(pairs.begin(), pairs.end(),
+            [&](const PairFinding& pair) { return !pair.inSet || contains(pair.effects, e); });
         name += (name.empty() ? "" : " with ") + (isShared ? study.effects[e].name : study.effects[e].family);
     }
     return name;
@@ -106,7 +79,7 @@ bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs)
     double together = 0.0;
     for (const auto& pair : pairs)
     {
-        const bool isVariant = areVariants(study, pairs.front(), pair);
+        const bool isVariant = shareName(study, pairs.front(), pair);
         if (pair.inSet && !isVariant)
         {
             return false;
@@ -141,7 +114,7 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
             }
         }
     }
-    const double null = evidence(measured).null;
+    const double null = evidence.compare({}, measured).null;
     const auto judge = [&] {
         for (auto& pair : pairs)
         {
@@ -175,15 +148,17 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
 double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random)
 {
-    const Verdict verdict = verdictOf(evidence, explanationsOf(evidence, pairs), pairs, measured);
-    const double null = evidence(measured).null;
-    std::map<const Evidence*, std::vector<Evidence::Explanation>> explanations; // by judge
+    const Eigen::VectorXd logPriors =
+        Eigen::VectorXd::NullaryExpr(pairs.size(), [&](Eigen::Index i) { return pairs[i].logPrior; });
+    const Odds odds = oddsOf(evidence.compare(explanationsOf(evidence, pairs), measured), logPriors);
+    Calibration limits;
+    limits.leastGain = leastGain(study);
+    limits.membership = limits.chiSquares = limits.scatterChiSquares = logPriors; // to be set
+    std::map<const Evidence*, std::vector<Evidence::Explanation>> explanations;   // by judge
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
         PairFinding& pair = pairs[i];
-        std::vector<double> chiSquares;
-        std::vector<double> scatterChiSquares;
-        std::vector<double> improbabilities;
+        std::vector<Odds> draws;
         for (int trial = 0; trial < trials; ++trial)
         {
             const Eigen::VectorXd parameters = around(pair.fits.front(), random);
@@ -193,23 +168,14 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
             {
                 ofJudge = explanationsOf(judge, pairs);
             }
-            const Verdict own = verdictOf(judge, ofJudge, pairs, data);
-            chiSquares.push_back(own.judgements[i].chiSquare);
-            scatterChiSquares.push_back(own.judgements[i].scatterChiSquare);
-            improbabilities.push_back(1.0 - own.probabilities(i));
+            draws.push_back(oddsOf(judge.compare(ofJudge, data), logPriors));
         }
-        const auto fitsWithin = [&](double sds) {
-            return verdict.judgements[i].chiSquare
-                   <= std::min(chiSquareLimit(chiSquares, sds), evidence.largestChiSquare(sds));
-        };
-        pair.probability = verdict.probabilities(i);
-        pair.inSet = verdict.judgements[i].peak - null >= leastGain(study) && fitsWithin(meansStillFit)
-                     && verdict.judgements[i].scatterChiSquare <= chiSquareLimit(scatterChiSquares, scatterStillFits)
-                     && 1.0 - pair.probability <= std::max(
-                            study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
-        pair.fitsWell = pair.inSet && fitsWithin(fitsWell);
+        setLimits(limits, i, draws, study, evidence);
+        pair.probability = std::exp(odds.effects(i));
+        pair.inSet = isMember(limits, odds, i);
+        pair.fitsWell = pair.inSet && odds.chiSquares(i) <= largestChiSquare(evidence, draws, i, fitsWell);
     }
-    return verdict.probabilities.tail<1>()(0);
+    return std::exp(odds.other);
 }
 
 } // namespace clepsydra::identification

@@ -32,9 +32,6 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
 double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random);
 
-/// Whether the effects of two pairs are equal or variants of each other.
-bool areVariants(const Study& study, const PairFinding& one, const PairFinding& other);
-
 /// Common name of all pairs in the set: the effects that they share and, for the others, the name of the family.
 std::string sharedName(const Study& study, const std::vector<PairFinding>& pairs);
 

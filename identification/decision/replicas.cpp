@@ -3,6 +3,12 @@
 namespace clepsydra::identification
 {
 
+Replicas::Replica::Replica(const Emulator& emulator, const Evidence& evidence, std::mt19937_64& random)
+    : truth(emulator.posteriorDraw(random)),
+      learnt(emulator.regenerated(truth, random)),
+      judge(evidence, learnt)
+{}
+
 Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
     : emulator_(emulator),
       layout_(layout),
@@ -11,10 +17,7 @@ Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidenc
     constexpr int posteriorDraws = 40;
     for (int i = 0; i < (emulator.scatters() ? posteriorDraws : 0); ++i)
     {
-        Emulator truth = emulator.posteriorDraw(random);
-        Emulator learnt = emulator.regenerated(truth, random);
-        all_.push_back(std::make_unique<Replica>(Replica{std::move(truth), std::move(learnt), nullptr}));
-        all_.back()->judge = std::make_unique<Evidence>(evidence, all_.back()->learnt);
+        all_.emplace_back(emulator, evidence, random);
     }
 }
 
@@ -27,8 +30,8 @@ Replicas::Trial Replicas::draw(
     {
         return {identification::draw(layout_, emulator_, present, allowed, around, true, random), evidence_};
     }
-    const Replica& one = *all_[turn_++ % all_.size()];
-    return {identification::draw(layout_, one.truth, present, allowed, around, false, random), *one.judge};
+    const Replica& one = all_[turn_++ % all_.size()];
+    return {identification::draw(layout_, one.truth, present, allowed, around, false, random), one.judge};
 }
 
 Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)

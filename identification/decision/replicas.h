@@ -2,7 +2,7 @@
 
 #include "decision/evidence.h"
 
-#include <memory>
+#include <deque>
 #include <random>
 #include <vector>
 
@@ -35,13 +35,15 @@ private:
     {
         Emulator truth;
         Emulator learnt;
-        std::unique_ptr<Evidence> judge;
+        Evidence judge;
+
+        Replica(const Emulator& emulator, const Evidence& evidence, std::mt19937_64& random);
     };
 
     const Emulator& emulator_;
     const Layout& layout_;
     const Evidence& evidence_;
-    std::vector<std::unique_ptr<Replica>> all_;
+    std::deque<Replica> all_; // each refers to itself, and must not move
     std::size_t turn_ = 0;
 };
 

@@ -1,10 +1,12 @@
 #include "decision/evidence.h"
 
-#include <Eigen/Cholesky>
+#include "lists.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -30,11 +32,14 @@ void Evidence::prepareOther()
     // Change of each feature by the library's effects at full size, root mean square over effects and conditions.
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_.featureCount());
     Eigen::VectorXd counts = squares;
+    std::vector<std::pair<std::size_t, Eigen::Index>> rows; // condition and feature
     const Eigen::VectorXd prior = Eigen::VectorXd::Zero(study_.parameters.size());
     for (const auto& block : layout_.blocks)
     {
         const ConditionEmulator& emulator = *emulator_[block.condition];
         const Eigen::VectorXd base = emulator.at(prior, {});
+        append(rows, mapped(block.places,
+                         [&](Eigen::Index place) { return std::pair(block.condition, emulator.features[place]); }));
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
             if (emulator_.knows(e) && acts(study_.effects[e], study_.conditions[block.condition]))
@@ -50,29 +55,17 @@ void Evidence::prepareOther()
         }
     }
     const Eigen::VectorXd typical = squares.cwiseQuotient(counts.cwiseMax(1.0)).cwiseSqrt();
-    Eigen::MatrixXd pattern(n, n);
+    Eigen::MatrixXd pattern = Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
+        const auto [condition, f] = rows[i];
+        const auto [otherCondition, g] = rows[j];
+        return typical(f) * typical(g) * (f == g ? 1.0 : alikeFeatures)
+               * (condition == otherCondition ? 1.0 : alikeConditions);
+    });
     Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(n, n);
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
         const auto [first, size] = parts_[p];
         transform.block(first, first, size, size) = null_.transform[p];
-    }
-    for (const auto& one : layout_.blocks)
-    {
-        for (const auto& other : layout_.blocks)
-        {
-            for (Eigen::Index i = 0; i < one.size(); ++i)
-            {
-                for (Eigen::Index j = 0; j < other.size(); ++j)
-                {
-                    const auto f = emulator_[one.condition]->features[one.places[i]];
-                    const auto g = emulator_[other.condition]->features[other.places[j]];
-                    pattern(one.first + i, other.first + j) =
-                        typical(f) * typical(g) * (f == g ? 1.0 : alikeFeatures)
-                        * (one.condition == other.condition ? 1.0 : alikeConditions);
-                }
-            }
-        }
     }
     pattern = transform * pattern * transform.transpose();
     const Eigen::VectorXd usual = null_.extra.array() + 1.0;
@@ -86,12 +79,11 @@ void Evidence::prepareOther()
     }
     const double rounding = 1e-9 * std::max(pattern.diagonal().maxCoeff(), 1e-12);
     otherRoot_ = (pattern + rounding * Eigen::MatrixXd::Identity(n, n)).llt().matrixL();
-    for (const double size : sizes())
+    for (const double size : sizes)
     {
         Eigen::MatrixXd covariance = size * size * pattern + slope * slope.transpose();
         covariance.diagonal() += usual;
-        const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-        other_.push_back({factor.matrixL(), 2.0 * factor.matrixLLT().diagonal().array().log().sum()});
+        other_.emplace_back(covariance);
     }
 }
 
@@ -99,7 +91,7 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
 {
     const Eigen::Index q = study_.parameters.size();
     // The emulator is linearised in the parameters at the null fit.
-    Eigen::VectorXd& r = workspace_.data;
+    Eigen::VectorXd& r = data_;
     transformTo(null_, measured.mean, r);
     r -= null_.terms * parameterTermsAt(Eigen::VectorXd(null.parameters));
     r += null_.terms.middleCols(1, q) * Eigen::VectorXd(null.parameters);
@@ -109,21 +101,14 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
     Eigen::VectorXd logs(other_.size());
     for (Eigen::Index i = 0; i < logs.size(); ++i)
     {
-        const Discrepancy& one = other_[i];
-        const double chiSquare = one.root.triangularView<Eigen::Lower>().solve(r).squaredNorm() / usual.factor;
+        const double chiSquare = other_[i].matrixL().solve(r).squaredNorm() / usual.factor;
         logs(i) = -0.5 * (nu + rows) * std::log1p(chiSquare / nu)
-                  - 0.5 * (one.logDeterminant + rows * std::log(usual.factor) + null_.logDeterminant);
+                  - 0.5 * (logDeterminantOf(other_[i]) + rows * std::log(usual.factor) + null_.logDeterminant);
     }
     const double pattern = logSumExp(logs) - std::log(static_cast<double>(other_.size()));
     const Eigen::Vector2d spread(
         std::log(1.0 - otherSpreadShare) + usual.logLikelihood, std::log(otherSpreadShare) + otherSpread(measured));
     return pattern + logSumExp(spread);
-}
-
-double Evidence::otherEvidence(const Measured& measured) const
-{
-    const Spread usual = spreadOf(null_, measured);
-    return otherEvidence(measured, usual, solve(null_, usual.factor, measured));
 }
 
 double Evidence::otherSpread(const Measured& measured) const

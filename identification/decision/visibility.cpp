@@ -43,16 +43,17 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
     {
         std::vector<std::pair<double, double>> detected;
         std::vector<std::pair<double, double>> named;
-        const auto amplitudes = evidence.amplitudes(e);
-        for (const double amplitude : amplitudes)
+        double seen = 0.0;      // number of draws in which the effect at the last amplitude is detected
+        Eigen::VectorXd beside; // number of these whose set contains an effect
+        for (const double amplitude : evidence.amplitudes(e))
         {
             if (amplitude <= 0.0)
             {
                 continue;
             }
-            double seen = 0.0;
+            seen = 0.0;
+            beside = Eigen::VectorXd::Zero(count);
             double right = 0.0;
-            std::vector<double> beside(study.effects.size(), 0.0);
             for (int draw = 0; draw < draws; ++draw)
             {
                 const auto [data, judge] = replicas.draw({{e, amplitude}}, null.parameters, random);
@@ -61,33 +62,29 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
                 {
                     continue;
                 }
-                seen += 1.0;
                 const auto sole = soleMember(study, calibration, odds);
-                right += sole && (*sole == e || areVariants(study, *sole, e))
-                                 && marginOf(study, odds, *sole) >= calibration.naming(*sole)
-                             ? 1.0
-                             : 0.0;
+                const bool isRight =
+                    sole && shareName(study, *sole, e) && marginOf(study, odds, *sole) >= calibration.naming(*sole);
+                seen += 1.0;
+                right += isRight ? 1.0 : 0.0;
                 for (const auto member : membersOf(calibration, odds))
                 {
-                    beside[member] += 1.0;
+                    beside(member) += 1.0;
                 }
             }
             detected.emplace_back(amplitude, seen / draws);
             named.emplace_back(amplitude, right / draws);
             found.atFullSize(e) = right / draws;
-            if (amplitude == amplitudes.back())
-            {
-                for (std::size_t other = 0; other < beside.size(); ++other)
-                {
-                    if (other != e && beside[other] > mostly * seen)
-                    {
-                        found.alike.emplace_back(e, other);
-                    }
-                }
-            }
         }
         found.detected(e) = reached(detected);
         found.named(e) = reached(named);
+        for (Eigen::Index other = 0; other < beside.size(); ++other)
+        {
+            if (static_cast<std::size_t>(other) != e && beside(other) > mostly * seen)
+            {
+                found.alike.emplace_back(e, other);
+            }
+        }
     }
     return found;
 }

@@ -63,14 +63,14 @@ Eigen::VectorXd Waves::anglesAt(const Eigen::VectorXd& t, const Eigen::VectorXd&
 
 Eigen::VectorXd Waves::at(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
 {
-    return std::sqrt(2.0 / static_cast<double>(size())) * anglesAt(t, amplitudes).array().cos();
+    return std::sqrt(2.0 / static_cast<double>(phases.size())) * anglesAt(t, amplitudes).array().cos();
 }
 
 Eigen::MatrixXd Waves::linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
 {
     const Eigen::VectorXd angles = anglesAt(t, amplitudes);
-    const double scale = std::sqrt(2.0 / static_cast<double>(size()));
-    Eigen::MatrixXd both(size(), 1 + t.size());
+    const double scale = std::sqrt(2.0 / static_cast<double>(phases.size()));
+    Eigen::MatrixXd both(phases.size(), 1 + t.size());
     both.rightCols(t.size()) = (-scale * angles.array().sin()).matrix().asDiagonal() * frequencies.leftCols(t.size());
     both.col(0) = (scale * angles.array().cos()).matrix() - both.rightCols(t.size()) * t;
     return both;
@@ -79,40 +79,25 @@ Eigen::MatrixXd Waves::linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd&
 Eigen::Index Basis::firstWave() const
 {
     const Eigen::Index count = effects.size();
-    return parameterTerms(parameters) + count * (2 + parameters) + count * (count - 1) / 2;
+    return effectTerm(effects.size()) + count * (count - 1) / 2;
 }
 
 Eigen::Index Basis::size() const
 {
-    return firstWave() + waves.size() + 1;
+    return firstWave() + waves.phases.size() + 1;
 }
 
 Basis::Kind Basis::kind(Eigen::Index term) const
 {
-    if (term <= parameters)
-    {
-        return term == 0 ? constant : linear;
-    }
-    if (term == designTerm())
-    {
-        return constant;
-    }
-    if (term >= firstWave())
-    {
-        return wave;
-    }
-    const Eigen::Index first = parameterTerms(parameters);
-    if (term < first)
-    {
-        return square;
-    }
-    const Eigen::Index perEffect = 2 + parameters;
-    if (term >= first + static_cast<Eigen::Index>(effects.size()) * perEffect)
-    {
-        return interaction;
-    }
-    const Eigen::Index place = (term - first) % perEffect;
-    return place == 0 ? linear : place == 1 ? square : mixed;
+    const Eigen::Index ofEffect = (term - effectTerm(0)) % (2 + parameters);
+    return term == 0 || term == designTerm()    ? constant
+           : term <= parameters                 ? linear
+           : term < effectTerm(0)               ? square
+           : term >= firstWave()                ? wave
+           : term >= effectTerm(effects.size()) ? interaction
+           : ofEffect == 0                      ? linear
+           : ofEffect == 1                      ? square
+                                                : mixed;
 }
 
 std::size_t Basis::placeOf(std::size_t effect) const
@@ -125,11 +110,10 @@ Eigen::Index Basis::effectTerm(std::size_t place) const
     return parameterTerms(parameters) + static_cast<Eigen::Index>(place) * (2 + parameters);
 }
 
-Eigen::Index Basis::pairTerm(std::size_t one, std::size_t other) const
+Eigen::Index Basis::pairTerm(Eigen::Index one, Eigen::Index other) const
 {
     const Eigen::Index count = effects.size();
-    const Eigen::Index low = std::min(one, other);
-    const Eigen::Index high = std::max(one, other);
+    const auto [low, high] = std::minmax(one, other);
     return effectTerm(effects.size()) + low * count - low * (low + 1) / 2 + (high - low - 1);
 }
 
@@ -154,9 +138,9 @@ Eigen::VectorXd Basis::at(const Eigen::VectorXd& t, const Eigen::VectorXd& ampli
             terms(pairTerm(other, k)) = a * amplitudes(other);
         }
     }
-    if (waves.size() > 0)
+    if (waves.phases.size() > 0)
     {
-        terms.segment(firstWave(), waves.size()) = waves.at(t, amplitudes);
+        terms.segment(firstWave(), waves.phases.size()) = waves.at(t, amplitudes);
     }
     terms(designTerm()) = 0.0;
     return terms;

@@ -28,10 +28,6 @@ struct Waves
     /// \param moves  for each parameter, whether the function depends on it
     Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index effects);
 
-    Eigen::Index size() const
-    {
-        return phases.size();
-    }
     Eigen::VectorXd at(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const;
     /// Linearised in the parameters around t: waves x (1, t_i)
     Eigen::MatrixXd linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const;
@@ -65,7 +61,7 @@ struct Basis
     std::size_t placeOf(std::size_t effect) const;
 
     Eigen::Index effectTerm(std::size_t place) const; // term a, followed by a^2 and all a t_i
-    Eigen::Index pairTerm(std::size_t one, std::size_t other) const;
+    Eigen::Index pairTerm(Eigen::Index one, Eigen::Index other) const;
     Eigen::Index firstWave() const;
     /// Term that is 1 in runs with several effects and 0 in all others. It takes up what the quadratic terms miss far
     /// from the base setting, which would otherwise shift the prediction at the base setting.

@@ -62,21 +62,14 @@ Eigen::MatrixXd sharedErrorSlopes(
     const Study& study = studySimulator.study();
     const double step = differenceStep(study);
     const auto meanAt = [&](std::size_t error, double z) {
-        std::vector<Simulation> simulations;
-        if (!study.commonErrors[error].entries.empty())
+        const bool isOfChain = study.commonErrors[error].entries.empty();
+        auto simulations = isOfChain ? plain : studySimulator.run(ordersOf(studySimulator, condition, error, z));
+        for (auto& simulation : simulations)
         {
-            simulations = studySimulator.run(ordersOf(studySimulator, condition, error, z));
-        }
-        else
-        {
-            simulations = plain;
-            for (auto& simulation : simulations)
+            if (isOfChain && simulation.condition == condition && !simulation.failed)
             {
-                if (simulation.condition == condition && !simulation.failed)
-                {
-                    simulation.features = studySimulator.featuresOf(
-                        studySimulator.throughChain(simulation.plain, condition, moved(studySimulator, error, z)));
-                }
+                simulation.features = studySimulator.featuresOf(
+                    studySimulator.throughChain(simulation.plain, condition, moved(studySimulator, error, z)));
             }
         }
         return meanFeatures(featureRows(simulations, condition, study.featureCount()));

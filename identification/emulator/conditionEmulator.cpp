@@ -35,17 +35,11 @@ Eigen::VectorXd ConditionEmulator::at(const Eigen::VectorXd& parameters, const s
 
 Eigen::VectorXd ConditionEmulator::reach(const std::vector<Present>& present) const
 {
-    Eigen::VectorXd factors = Eigen::VectorXd::Ones(basis.parameters);
     const Eigen::VectorXd here = amplitudes(present);
-    for (std::size_t p = 0; p < owners.size(); ++p)
-    {
-        if (owners[p])
-        {
-            const std::size_t place = basis.placeOf(*owners[p]);
-            factors(p) = place < basis.effects.size() ? here(place) : 0.0;
-        }
-    }
-    return factors;
+    return Eigen::VectorXd::NullaryExpr(basis.parameters, [&](Eigen::Index p) {
+        const std::size_t place = basis.placeOf(owners[p].value_or(0));
+        return !owners[p] ? 1.0 : place < basis.effects.size() ? here(place) : 0.0;
+    });
 }
 
 Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, const Eigen::VectorXd& around) const
@@ -73,20 +67,19 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
             }
         }
     }
-    if (basis.waves.size() > 0)
+    if (basis.waves.phases.size() > 0)
     {
-        whitened.leftCols(1 + q) += coefficients.middleRows(basis.firstWave(), basis.waves.size()).transpose()
+        whitened.leftCols(1 + q) += coefficients.middleRows(basis.firstWave(), basis.waves.phases.size()).transpose()
                                     * basis.waves.linearAt(around.cwiseProduct(reach(present)), amplitudes(present));
     }
     Eigen::MatrixXd polynomial = root * whitened * parameterTermsAt(reach(present)).asDiagonal();
     polynomial.col(0) += centre;
     for (const auto& [effect, a] : present)
     {
-        const auto found = chain.find(effect);
-        if (found != chain.end())
+        if (const auto found = chain.find(effect); found != chain.end())
         {
             const Chain& one = found->second;
-            const Eigen::VectorXd weights = one.amplitudes.weightsAt(a).transpose();
+            const Eigen::VectorXd weights = one.grid.weightsAt(a).transpose();
             polynomial.col(0) += one.changes * weights;
             for (Eigen::Index i = 0; i < q; ++i)
             {
@@ -118,15 +111,13 @@ Eigen::MatrixXd ConditionEmulator::noiseOf(const std::vector<Present>& present) 
     Eigen::VectorXd factor = Eigen::VectorXd::Zero(noise.rows());
     for (const auto& [effect, amplitude] : present)
     {
-        const auto found = logScatter.find(effect);
-        if (found != logScatter.end())
+        if (const auto found = logScatter.find(effect); found != logScatter.end())
         {
             factor += std::abs(amplitude) * found->second;
         }
-        const auto recorded = chain.find(effect);
-        if (recorded != chain.end())
+        if (const auto found = chain.find(effect); found != chain.end())
         {
-            factor += recorded->second.logScatter * recorded->second.amplitudes.weightsAt(amplitude).transpose();
+            factor += found->second.logScatter * found->second.grid.weightsAt(amplitude).transpose();
         }
     }
     factor = factor.array().exp();

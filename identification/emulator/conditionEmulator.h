@@ -29,7 +29,7 @@ public:
     /// late trigger changes a short start in a way that no polynomial describes. The chain changes the noise too.
     struct Chain
     {
-        Grid amplitudes;
+        Grid grid;
         Eigen::MatrixXd changes;             // features x amplitudes
         std::vector<Eigen::MatrixXd> slopes; // derivative of `changes` with respect to each parameter
         Eigen::MatrixXd logScatter;          // log of the factor on the standard deviation of a run

@@ -49,22 +49,23 @@ Emulator Emulator::posteriorDraw(std::mt19937_64& random) const
 {
     std::normal_distribution<double> normal;
     Emulator draw = *this;
-    for (auto& condition : draw.conditions_)
+    for (const auto c : learnt_)
     {
-        for (Eigen::Index f = 0; condition && f < condition->coefficients.cols(); ++f)
+        ConditionEmulator& here = *draw.conditions_[c];
+        for (Eigen::Index f = 0; f < here.coefficients.cols(); ++f)
         {
-            const Eigen::LDLT<Eigen::MatrixXd> factor(condition->covariances[f]);
-            Eigen::VectorXd z = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
-            z = z.unaryExpr([&](double sd) { return sd * normal(random); }).eval();
+            const Eigen::LDLT<Eigen::MatrixXd> factor(here.covariances[f]);
+            const Eigen::VectorXd sds = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
+            const Eigen::VectorXd z = sds.unaryExpr([&](double sd) { return sd * normal(random); });
             const Eigen::VectorXd error = factor.transpositionsP().transpose() * Eigen::VectorXd(factor.matrixL() * z);
-            condition->coefficients.col(f) += error;
+            here.coefficients.col(f) += error;
         }
-        if (condition && condition->logSdError > 0.0)
+        if (here.logSdError > 0.0)
         {
             // `root` does not change, because it is the unit of the coefficients.
             const Eigen::VectorXd factor = Eigen::VectorXd::NullaryExpr(
-                condition->noise.rows(), [&] { return std::exp(condition->logSdError * normal(random)); });
-            condition->noise = factor.asDiagonal() * condition->noise * factor.asDiagonal();
+                here.noise.rows(), [&] { return std::exp(here.logSdError * normal(random)); });
+            here.noise = factor.asDiagonal() * here.noise * factor.asDiagonal();
         }
     }
     return draw;
@@ -84,7 +85,7 @@ Emulator Emulator::regenerated(const Emulator& truth, std::mt19937_64& random) c
             const double missed = rows.hasSeveral(row) ? lackOfFit_ : 0.0;
             whitened.row(row) =
                 whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
-            const Eigen::MatrixXd root = here.noiseOf(rows.scattering[row]).llt().matrixL();
+            const Eigen::MatrixXd root = here.noiseOf(here.scatteringIn(rows.settings[row])).llt().matrixL();
             const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(whitened.cols(), [&] { return normal(random); });
             rows.values.row(row) = (here.centre + here.root * whitened.row(row).transpose() + root * z).transpose();
         }
@@ -107,13 +108,14 @@ Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, con
       known_(study.effects.size(), true),
       scatters_(study.simulator.scatters())
 {
+    std::vector<std::vector<const Curve*>> curves(conditions_.size());
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
         choose(c, goodRuns(runs, c), features[c]);
         if (conditions_[c])
         {
             learnt_.push_back(c);
-            append(c, studySimulator, goodRuns(runs, c));
+            curves[c] = append(c, studySimulator, goodRuns(runs, c));
         }
     }
     learnNoiseAndScatter();
@@ -123,7 +125,7 @@ Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, con
         {
             if (study.effects[e].isOfChain() && acts(study.effects[e], study.conditions[c]))
             {
-                learnChain(e, c, studySimulator, goodRuns(runs, c));
+                learnChain(e, c, studySimulator, curves[c]);
             }
         }
     }
@@ -188,23 +190,28 @@ void Emulator::choose(
     conditions_[c] = std::move(emulator);
 }
 
-void Emulator::append(std::size_t c, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs)
+/// Fills in the rows of a condition. \return the curve of each row, before the measuring chain
+std::vector<const Curve*> Emulator::append(
+    std::size_t c, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs)
 {
-    const ConditionEmulator& emulator = *conditions_[c];
+    ConditionEmulator& emulator = *conditions_[c];
     Rows& rows = rows_[c];
+    std::vector<const Curve*> curves;
     for (const auto* run : runs)
     {
-        const auto [setting, all] = beforeChain(*study_, studySimulator, *run);
+        Setting setting = run->setting;
+        const auto ofChain = numbersWhere(study_->effects.size(),
+            [&](std::size_t e) { return study_->effects[e].isOfChain() && setting.amplitudes(e) != 0.0; });
+        setting.amplitudes(ofChain).setZero();
+        const Eigen::VectorXd all = ofChain.empty() ? run->features : studySimulator.featuresOf(run->plain);
         const Eigen::VectorXd values = all(emulator.features);
         if (!values.array().isFinite().all())
         {
             continue;
         }
-        std::vector<Present> present;
-        for (const auto e : emulator.basis.effects)
-        {
-            present.push_back({e, setting.amplitudes(e)});
-        }
+        const auto present = mapped(emulator.basis.effects, [&](std::size_t e) {
+            return Present{e, setting.amplitudes(e)};
+        });
         const Eigen::Index row = rows.values.rows();
         rows.values.conservativeResize(row + 1, values.size());
         rows.values.row(row) = values.transpose();
@@ -213,11 +220,11 @@ void Emulator::append(std::size_t c, const StudySimulator& studySimulator, const
         rows.settings.push_back(setting);
         const auto on = (setting.amplitudes(emulator.basis.effects).array() != 0.0).count();
         rows.terms(row, emulator.basis.designTerm()) = on > 1 ? 1.0 : 0.0;
-        rows.scattering.push_back(emulator.scatteringIn(setting));
+        curves.push_back(&run->plain);
     }
-    conditions_[c]->centre = rows.values.colwise().mean().transpose();
+    emulator.centre = rows.values.colwise().mean().transpose();
+    return curves;
 }
-
 
 /// Variances of the runs in units of the noise: runs x features.
 Eigen::ArrayXXd Emulator::variances(std::size_t c) const
@@ -228,7 +235,7 @@ Eigen::ArrayXXd Emulator::variances(std::size_t c) const
     const auto lower = emulator.root.triangularView<Eigen::Lower>();
     for (Eigen::Index row = 0; row < all.rows(); ++row)
     {
-        const auto& scattering = rows.scattering[row];
+        const auto scattering = emulator.scatteringIn(rows.settings[row]);
         if (!scattering.empty())
         {
             const Eigen::MatrixXd wide = emulator.noiseOf(scattering).llt().matrixL();
@@ -251,12 +258,12 @@ Eigen::MatrixXd Emulator::whitened(std::size_t c) const
 }
 
 /// Log marginal likelihood of all runs, up to a constant.
-double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) const
+double Emulator::logEvidence() const
 {
     double sum = 0.0;
     for (const auto c : learnt_)
     {
-        const Eigen::MatrixXd scaled = rows_[c].terms * priorSds(conditions_[c]->basis, scales).asDiagonal();
+        const Eigen::MatrixXd scaled = rows_[c].terms * priorSds(conditions_[c]->basis, scales_).asDiagonal();
         Eigen::MatrixXd covariance = scaled * scaled.transpose();
         covariance.diagonal() += variances(c).rowwise().mean().matrix();
         const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
@@ -274,35 +281,23 @@ void Emulator::chooseScales()
     constexpr int bits = 8;
     constexpr int sweeps = 2;
     constexpr std::uintmax_t mostEvaluations = 16;
-    const auto best = [](const auto& costOfLog, double largest) {
+    const auto maximise = [&](double& scale, double largest) {
+        const auto cost = [&](double logScale) {
+            scale = std::exp(logScale);
+            return -logEvidence();
+        };
         std::uintmax_t most = mostEvaluations;
         const auto found =
-            boost::math::tools::brent_find_minima(costOfLog, std::log(smallestScale), std::log(largest), bits, most);
-        return std::exp(found.first);
+            boost::math::tools::brent_find_minima(cost, std::log(smallestScale), std::log(largest), bits, most);
+        scale = std::exp(found.first);
     };
     for (int sweep = 0; sweep < sweeps; ++sweep)
     {
-        for (const auto kind : {Basis::linear, Basis::square, Basis::mixed, Basis::interaction, Basis::wave})
+        for (const auto kind : {Basis::linear, Basis::square, Basis::mixed, Basis::interaction})
         {
-            if (kind == Basis::wave && scatters_)
-            {
-                continue;
-            }
-            const auto cost = [&](double logScale) {
-                auto scales = scales_;
-                scales[kind] = std::exp(logScale);
-                return -logEvidence(scales);
-            };
-            scales_[kind] = best(cost, largestScale / 10.0);
+            maximise(scales_[kind], largestScale / 10.0);
         }
-        if (scatters_)
-        {
-            const auto cost = [&](double logSize) {
-                lackOfFit_ = std::exp(logSize);
-                return -logEvidence(scales_);
-            };
-            lackOfFit_ = best(cost, 10.0);
-        }
+        scatters_ ? maximise(lackOfFit_, 10.0) : maximise(scales_[Basis::wave], largestScale / 10.0);
     }
 }
 

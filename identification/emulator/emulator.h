@@ -72,10 +72,9 @@ private:
     /// The runs of one condition, one per row.
     struct Rows
     {
-        std::vector<Setting> settings;
-        Eigen::MatrixXd values;                       // of the emulator's features
-        Eigen::MatrixXd terms;                        // of the basis
-        std::vector<std::vector<Present>> scattering; // effects of each run that raise its scatter
+        std::vector<Setting> settings; // without the effects of the measuring chain
+        Eigen::MatrixXd values;        // of the emulator's features
+        Eigen::MatrixXd terms;         // of the basis
 
         /// Whether a run has several effects.
         bool hasSeveral(Eigen::Index run) const
@@ -86,9 +85,9 @@ private:
 
     void choose(
         std::size_t condition, const std::vector<const Simulation*>& good, const std::vector<Eigen::Index>& wanted);
-    void append(
+    std::vector<const Curve*> append(
         std::size_t condition, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs);
-    double logEvidence(const std::array<double, Basis::kinds>& scales) const;
+    double logEvidence() const;
     void chooseScales();
     void solve(std::size_t condition);
     void learnNoiseAndScatter();
@@ -96,7 +95,7 @@ private:
     void learnNoise(bool ofPlainRuns);
     void learnScatter();
     void learnChain(std::size_t effect, std::size_t condition, const StudySimulator& studySimulator,
-        const std::vector<const Simulation*>& runs);
+        const std::vector<const Curve*>& curves);
     Eigen::ArrayXXd variances(std::size_t condition) const;
     Eigen::MatrixXd whitened(std::size_t condition) const;
 

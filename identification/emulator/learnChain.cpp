@@ -1,80 +1,43 @@
 #include "emulator/emulator.h"
 #include "emulator/settings.h"
 
-#include <Eigen/QR>
+#include "lists.h"
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/QR>
 
 namespace clepsydra::identification
 {
 
 /// Applies the effect of the measuring chain to the curves of runs without effects, at each amplitude of the grid.
+/// \param curves  of the condition's rows, before the chain
 void Emulator::learnChain(
-    std::size_t e, std::size_t c, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs)
+    std::size_t e, std::size_t c, const StudySimulator& studySimulator, const std::vector<const Curve*>& curves)
 {
     const Effect& effect = study_->effects[e];
+    const Rows& rows = rows_[c];
     const auto& kept = conditions_[c]->features;
     const Eigen::Index q = study_->parameters.size();
-    std::vector<const Curve*> curves;
-    std::vector<Setting> settings;
-    std::vector<Eigen::VectorXd> features;
-    for (const auto* run : runs)
-    {
-        const auto [setting, all] = beforeChain(*study_, studySimulator, *run);
-        if (setting.amplitudes.isZero() && all(kept).array().isFinite().all())
-        {
-            curves.push_back(&run->plain);
-            settings.push_back(setting);
-            features.emplace_back(all(kept));
-        }
-    }
-    const Eigen::Index rows = curves.size();
-    Eigen::MatrixXd before(rows, kept.size());
-    Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(rows, 1 + q);
-    for (Eigen::Index row = 0; row < rows; ++row)
-    {
-        before.row(row) = features[row].transpose();
-        terms.row(row).tail(q) = inSds(*study_, settings[row].parameters).transpose();
-    }
-    const auto groups = repeatsOf(settings);
-    const auto squares = [&](const Eigen::MatrixXd& values, const std::vector<Eigen::Index>& some) {
-        Eigen::VectorXd sum = Eigen::VectorXd::Zero(values.cols());
-        for (const auto& group : groups)
-        {
-            std::vector<Eigen::Index> own;
-            std::set_intersection(group.begin(), group.end(), some.begin(), some.end(), std::back_inserter(own));
-            if (own.size() > 1)
-            {
-                const Eigen::MatrixXd chosen = values(own, Eigen::all);
-                sum += (chosen.rowwise() - Eigen::RowVectorXd(chosen.colwise().mean()))
-                           .colwise()
-                           .squaredNorm()
-                           .transpose();
-            }
-        }
-        return sum;
-    };
-
+    const auto plain = numbersWhere<Eigen::Index>(
+        curves.size(), [&](Eigen::Index row) { return rows.settings[row].amplitudes.isZero(); });
     ConditionEmulator::Chain chain;
-    chain.amplitudes = Grid(effect);
-    const Eigen::VectorXd& amplitudes = chain.amplitudes.amplitudes();
-    chain.changes = Eigen::MatrixXd::Zero(before.cols(), amplitudes.size());
+    chain.grid = Grid(effect);
+    const Eigen::VectorXd& amplitudes = chain.grid.amplitudes;
+    chain.changes = Eigen::MatrixXd::Zero(rows.values.cols(), amplitudes.size());
     chain.logScatter = chain.changes;
     chain.slopes.assign(q, chain.changes);
     for (Eigen::Index node = 0; node < amplitudes.size(); ++node)
     {
         Setting setting = studySimulator.plainSetting();
         setting.amplitudes(e) = amplitudes(node);
-        Eigen::MatrixXd after(rows, before.cols());
-        std::vector<Eigen::Index> good;
-        for (Eigen::Index row = 0; row < rows; ++row)
+        std::vector<Eigen::Index> good; // rows that still have all features
+        Eigen::MatrixXd after(plain.size(), kept.size());
+        for (const auto row : plain)
         {
-            const Curve& curve = *curves[row];
-            after.row(row) =
-                studySimulator.featuresOf(studySimulator.throughChain(curve, c, setting))(kept).transpose();
-            if (after.row(row).array().isFinite().all())
+            const Eigen::VectorXd all =
+                studySimulator.featuresOf(studySimulator.throughChain(*curves[row], c, setting));
+            if (all(kept).array().isFinite().all())
             {
+                after.row(good.size()) = all(kept).transpose();
                 good.push_back(row);
             }
         }
@@ -86,15 +49,31 @@ void Emulator::learnChain(
                                + study_->conditions[c].name);
             return;
         }
-        const Eigen::MatrixXd solution = Eigen::MatrixXd(terms(good, Eigen::all))
-                                             .completeOrthogonalDecomposition()
-                                             .solve(Eigen::MatrixXd((after - before)(good, Eigen::all)));
+        after.conservativeResize(good.size(), Eigen::NoChange);
+        const Eigen::MatrixXd before = rows.values(good, Eigen::all);
+        const auto settings = mapped(good, [&](Eigen::Index row) { return rows.settings[row]; });
+        Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(after.rows(), 1 + q);
+        for (Eigen::Index row = 0; row < terms.rows(); ++row)
+        {
+            terms.row(row).tail(q) = inSds(*study_, settings[row].parameters).transpose();
+        }
+        const Eigen::MatrixXd solution = terms.completeOrthogonalDecomposition().solve(Eigen::MatrixXd(after - before));
         chain.changes.col(node) = solution.row(0).transpose();
         for (Eigen::Index i = 0; i < q; ++i)
         {
             chain.slopes[i].col(node) = solution.row(1 + i).transpose();
         }
-        const Eigen::ArrayXd ratio = squares(after, good).array() / squares(before, good).array();
+        const auto groups = repeatsOf(settings);
+        const auto squares = [&](const Eigen::MatrixXd& values) {
+            Eigen::VectorXd sum = Eigen::VectorXd::Zero(values.cols());
+            for (const auto& group : groups)
+            {
+                const Eigen::MatrixXd own = values(group, Eigen::all);
+                sum += (own.rowwise() - Eigen::RowVectorXd(own.colwise().mean())).colwise().squaredNorm().transpose();
+            }
+            return sum;
+        };
+        const Eigen::ArrayXd ratio = squares(after).array() / squares(before).array();
         chain.logScatter.col(node) = (ratio.isFinite() && ratio > 0.0).select(0.5 * ratio.log(), 0.0);
     }
     conditions_[c]->chain[e] = std::move(chain);

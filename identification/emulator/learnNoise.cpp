@@ -61,39 +61,32 @@ void Emulator::learnNoise(bool ofPlainRuns)
     const Eigen::Index features = study_->featureCount();
     std::vector<Eigen::VectorXd> logSds(conditions_.size());
     std::vector<Eigen::VectorXd> smallest(conditions_.size());
-    std::vector<double> freedom(conditions_.size(), 0.0);
-    std::vector<Eigen::MatrixXd> deviations(conditions_.size());
+    std::vector<Scatter> ofRepeats(conditions_.size());
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(features);
     Eigen::VectorXd weight = squares;
     for (const auto c : learnt_)
     {
         const auto& kept = conditions_[c]->features;
-        const Rows& rows = rows_[c];
-        Scatter own;
+        const Eigen::MatrixXd& values = rows_[c].values;
+        Scatter& own = ofRepeats[c];
         for (const auto& group : repeats(c))
         {
-            const std::size_t first = group.front();
-            const bool isPlain = rows.settings[first].amplitudes.isZero() || !ofPlainRuns;
-            if (rows.scattering[first].empty() && isPlain)
+            const Setting& setting = rows_[c].settings[group.front()];
+            if ((setting.amplitudes.isZero() || !ofPlainRuns) && conditions_[c]->scatteringIn(setting).empty())
             {
-                own.add(rows.values(group, Eigen::all));
+                own.add(values(group, Eigen::all));
             }
         }
-        const Eigen::RowVectorXd mean = rows.values.colwise().mean();
-        smallest[c] = exactShare
-                      * ((rows.values.rowwise() - mean).colwise().squaredNorm().transpose()
-                          / static_cast<double>(rows.values.rows()))
-                            .cwiseSqrt()
-                            .cwiseMax(1e-9);
-        freedom[c] = own.degreesOfFreedom();
+        const Eigen::RowVectorXd mean = values.colwise().mean();
+        const Eigen::VectorXd all = (values.rowwise() - mean).colwise().squaredNorm().transpose();
+        smallest[c] = exactShare * (all / static_cast<double>(values.rows())).cwiseSqrt().cwiseMax(1e-9);
         logSds[c] = smallest[c].array().log();
-        if (freedom[c] > 0.0)
+        if (own.freedom > 0.0)
         {
-            deviations[c] = own.deviations();
-            const Eigen::VectorXd meanSquare = deviations[c].cwiseAbs2().colwise().mean();
-            logSds[c] = meanSquare.cwiseSqrt().cwiseMax(smallest[c]).array().log() - 0.5 * biasOfLog(freedom[c]);
-            squares(kept) += freedom[c] * meanSquare;
-            weight(kept).array() += freedom[c];
+            const Eigen::VectorXd meanSquare = own.deviations.cwiseAbs2().colwise().mean();
+            logSds[c] = meanSquare.cwiseSqrt().cwiseMax(smallest[c]).array().log() - 0.5 * biasOfLog(own.freedom);
+            squares(kept) += own.freedom * meanSquare;
+            weight(kept).array() += own.freedom;
         }
     }
     const Eigen::VectorXd pooled =
@@ -105,11 +98,12 @@ void Emulator::learnNoise(bool ofPlainRuns)
     degreesOfFreedom_ = 0.0;
     for (const auto c : learnt_)
     {
-        if (freedom[c] > 0.0)
+        const double freedom = ofRepeats[c].freedom;
+        if (freedom > 0.0)
         {
-            between += ((logSds[c] - pooled(conditions_[c]->features)).array().square() - 0.5 / freedom[c]).sum();
+            between += ((logSds[c] - pooled(conditions_[c]->features)).array().square() - 0.5 / freedom).sum();
             count += static_cast<double>(logSds[c].size());
-            degreesOfFreedom_ += freedom[c];
+            degreesOfFreedom_ += freedom;
         }
     }
     between = std::max(leastBetween, between / std::max(count, 1.0));
@@ -117,30 +111,27 @@ void Emulator::learnNoise(bool ofPlainRuns)
     for (const auto c : degreesOfFreedom_ > 0.0 ? learnt_ : std::vector<std::size_t>{})
     {
         const auto& kept = conditions_[c]->features;
+        const auto& [deviations, freedom] = ofRepeats[c];
         const Eigen::VectorXd common = pooled(kept).cwiseMax(smallest[c].array().log().matrix());
-        if (freedom[c] == 0.0)
+        if (freedom == 0.0)
         {
             logSds[c] = common;
             conditions_[c]->logSdError = std::sqrt(between);
             continue;
         }
-        const double own = between / (between + 0.5 / freedom[c]);
+        const double own = between / (between + 0.5 / freedom);
         logSds[c] = common + (logSds[c] - common) * own;
-        conditions_[c]->logSdError = std::sqrt(0.5 * own / freedom[c]);
-        const Eigen::Index first = standardised.rows();
-        standardised.conservativeResize(first + deviations[c].rows(), Eigen::NoChange);
-        standardised.bottomRows(deviations[c].rows()).setConstant(std::nan(""));
-        for (std::size_t k = 0; k < kept.size(); ++k)
-        {
-            const Eigen::Index place = k;
-            standardised.col(kept[k]).tail(deviations[c].rows()) =
-                deviations[c].col(place) * std::exp(-logSds[c](place));
-        }
+        conditions_[c]->logSdError = std::sqrt(0.5 * own / freedom);
+        const Eigen::VectorXd scales = logSds[c].unaryExpr([](double log) { return std::exp(-log); });
+        standardised.conservativeResize(standardised.rows() + deviations.rows(), Eigen::NoChange);
+        auto added = standardised.bottomRows(deviations.rows());
+        added.setConstant(std::nan(""));
+        added(Eigen::all, kept) = deviations * scales.asDiagonal();
     }
     Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(features, features);
     if (standardised.rows() > 0)
     {
-        correlation = pooledCovariance(standardised, degreesOfFreedom_).matrix;
+        correlation = pooledCovariance({standardised, degreesOfFreedom_}).matrix;
         const Eigen::VectorXd scale = correlation.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
         correlation = scale.asDiagonal() * correlation * scale.asDiagonal();
         correlation.diagonal().setOnes();
@@ -196,8 +187,7 @@ void Emulator::learnScatter()
             continue;
         }
         // An F distribution, because the noise is an estimate too.
-        const double freedomOfNoise =
-            std::max(1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0));
+        const double freedomOfNoise = std::max(1.0, degreesOfFreedom_ * statisticFreedom / freedom.maxCoeff());
         if (!study_->effects[e].raisesScatter
             && probabilityBeyondFisher(statistic / statisticFreedom, statisticFreedom, freedomOfNoise) > otherScatter)
         {
@@ -217,11 +207,6 @@ void Emulator::learnScatter()
             }
             conditions_[c]->logScatter[e] = logs;
         }
-    }
-    for (const auto c : learnt_)
-    {
-        rows_[c].scattering =
-            mapped(rows_[c].settings, [&](const Setting& setting) { return conditions_[c]->scatteringIn(setting); });
     }
 }
 

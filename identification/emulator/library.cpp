@@ -1,9 +1,8 @@
 #include "emulator/library.h"
 
 #include "lists.h"
-#include "emulator/plackettBurman.h"
 
-#include <algorithm>
+#include <map>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -26,67 +25,56 @@ bool runsAlone(const Effect& effect)
     return effect.isSwitch || effect.raisesScatter;
 }
 
+/// Orders of one condition's library.
 class Orders
 {
 public:
     Orders(const StudySimulator& studySimulator, std::size_t condition)
-        : studySimulator_(studySimulator),
+        : plain_(studySimulator.plainSetting()),
           study_(studySimulator.study()),
           condition_(condition)
     {}
 
-    std::vector<SimulationOrder> scattering()
+    std::vector<SimulationOrder> all()
     {
-        add(studySimulator_.plainSetting(), "base", study_.settings.repeatsBase);
+        const bool scatters = study_.simulator.scatters();
+        add(plain_, "base", scatters ? study_.settings.repeatsBase : 1);
         // In the design all parameters are at one of two levels; the runs outside of it show the curvature.
         for (std::size_t p = 0; p < study_.parameters.size(); ++p)
         {
-            add(at(p, -axialStep), study_.parameters[p].name + " alone", axialRepeats);
-            add(at(p, axialStep), study_.parameters[p].name + " alone", axialRepeats);
+            for (const double side : {-1.0, 1.0})
+            {
+                scatters ? add(at(p, side * axialStep), study_.parameters[p].name + " alone", axialRepeats)
+                         : add(at(p, side * parameterStep), "design", 1);
+            }
         }
         std::vector<std::size_t> designed;
         for (const auto e : simulatedEffects(study_, condition_))
         {
             const Effect& effect = study_.effects[e];
-            if (runsAlone(effect))
+            const auto [lower, upper] = effect.bounds;
+            if (!scatters)
             {
-                add(with(e, effect.bounds.upper), effect.name + " alone", study_.settings.repeatsAlone);
+                // A one-sided effect is also simulated at half its amplitude.
+                for (const double amplitude : {lower == 0.0 && !effect.isSwitch ? upper / 2.0 : lower, upper})
+                {
+                    add(with(e, amplitude), "design", amplitude != 0.0 ? 1 : 0);
+                }
+            }
+            else if (runsAlone(effect))
+            {
+                add(with(e, upper), effect.name + " alone", study_.settings.repeatsAlone);
             }
             else
             {
                 designed.push_back(e);
                 // The design has two levels; a run at half the amplitude shows whether the effect is linear.
-                const auto [lower, upper] = effect.bounds;
-                if (lower >= 0.0)
-                {
-                    add(with(e, upper / 2.0), effect.name + " alone", 1);
-                }
+                add(with(e, upper / 2.0), effect.name + " alone", lower >= 0.0 ? 1 : 0);
             }
         }
-        addDesign(designed);
-        return std::move(orders_);
-    }
-
-    std::vector<SimulationOrder> exact()
-    {
-        add(studySimulator_.plainSetting(), "base", 1);
-        for (std::size_t p = 0; p < study_.parameters.size(); ++p)
+        if (scatters)
         {
-            add(at(p, -parameterStep), "design", 1);
-            add(at(p, parameterStep), "design", 1);
-        }
-        for (const auto e : simulatedEffects(study_, condition_))
-        {
-            const auto [lower, upper] = study_.effects[e].bounds;
-            // A one-sided effect is also simulated at half its amplitude.
-            const bool hasMiddle = lower == 0.0 && !study_.effects[e].isSwitch;
-            for (const double amplitude : {hasMiddle ? upper / 2.0 : lower, upper})
-            {
-                if (amplitude != 0.0)
-                {
-                    add(with(e, amplitude), "design", 1);
-                }
-            }
+            addDesign(designed);
         }
         return std::move(orders_);
     }
@@ -94,7 +82,7 @@ public:
 private:
     Setting with(std::size_t effect, double amplitude) const
     {
-        Setting setting = studySimulator_.plainSetting();
+        Setting setting = plain_;
         setting.amplitudes(effect) = amplitude;
         return setting;
     }
@@ -103,8 +91,7 @@ private:
     Setting at(std::size_t parameter, double sds) const
     {
         const Parameter& own = study_.parameters[parameter];
-        Setting setting =
-            own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : studySimulator_.plainSetting();
+        Setting setting = own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : plain_;
         setting.parameters(parameter) = own.at(sds);
         return setting;
     }
@@ -112,11 +99,10 @@ private:
     /// Orders of one purpose are numbered consecutively, so that each has its own seed.
     void add(const Setting& setting, const std::string& purpose, int count)
     {
-        const auto before = std::count_if(
-            orders_.begin(), orders_.end(), [&](const SimulationOrder& order) { return order.purpose == purpose; });
+        int& number = numbers_[purpose];
         for (int i = 0; i < count; ++i)
         {
-            orders_.push_back({condition_, setting, purpose, static_cast<int>(before) + i});
+            orders_.push_back({condition_, setting, purpose, number++});
         }
     }
 
@@ -131,7 +117,7 @@ private:
         const Eigen::MatrixXd design = foldover(plackettBurman(factors));
         for (const auto& row : design.rowwise())
         {
-            Setting setting = studySimulator_.plainSetting();
+            Setting setting = plain_;
             for (Eigen::Index p = 0; p < parameters; ++p)
             {
                 setting.parameters(p) = study_.parameters[p].at(parameterStep * row(p));
@@ -146,9 +132,10 @@ private:
         }
     }
 
-    const StudySimulator& studySimulator_;
+    const Setting plain_;
     const Study& study_;
     std::size_t condition_;
+    std::map<std::string, int> numbers_; // of orders, by purpose
     std::vector<SimulationOrder> orders_;
 };
 
@@ -183,12 +170,10 @@ std::vector<const Simulation*> goodRuns(const std::vector<Simulation>& runs, std
 
 std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator)
 {
-    const Study& study = studySimulator.study();
     std::vector<SimulationOrder> all;
-    for (const auto condition : study.conditionsOf(Role::training))
+    for (const auto condition : studySimulator.study().conditionsOf(Role::training))
     {
-        Orders orders(studySimulator, condition);
-        append(all, study.simulator.scatters() ? orders.scattering() : orders.exact());
+        append(all, Orders(studySimulator, condition).all());
         append(all, commonErrorOrders(studySimulator, condition));
     }
     return all;
@@ -197,13 +182,12 @@ std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator)
 Library makeLibrary(StudySimulator& studySimulator)
 {
     const Study& study = studySimulator.study();
-    const auto orders = libraryOrders(studySimulator);
     // The runs at the base setting come first: if they fail, all other runs would be useless.
     std::vector<SimulationOrder> first;
     std::vector<SimulationOrder> rest;
-    for (const auto& order : orders)
+    for (const auto condition : study.conditionsOf(Role::training))
     {
-        if (order.setting.errors.size() == 0)
+        for (const auto& order : Orders(studySimulator, condition).all())
         {
             (order.purpose == "base" ? first : rest).push_back(order);
         }

@@ -1,4 +1,4 @@
-#include "emulator/plackettBurman.h"
+#include "emulator/library.h"
 
 #include <bitset>
 #include <string>

@@ -62,19 +62,4 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
     return groups;
 }
 
-BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Simulation& run)
-{
-    BeforeChain before{run.setting, run.features};
-    for (std::size_t e = 0; e < study.effects.size(); ++e)
-    {
-        double& amplitude = before.setting.amplitudes(e);
-        if (study.effects[e].isOfChain() && amplitude != 0.0)
-        {
-            amplitude = 0.0;
-            before.features = studySimulator.featuresOf(run.plain);
-        }
-    }
-    return before;
-}
-
 } // namespace clepsydra::identification

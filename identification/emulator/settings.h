@@ -25,13 +25,4 @@ Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::siz
 /// Groups of equal settings, as indices in `settings`.
 std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& settings);
 
-/// Setting and features of a run without the effects of the measuring chain.
-struct BeforeChain
-{
-    Setting setting;
-    Eigen::VectorXd features;
-};
-
-BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Simulation& run);
-
 } // namespace clepsydra::identification

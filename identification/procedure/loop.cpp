@@ -244,7 +244,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     const auto [layout, numbers] = arrange(study, emulator, planned, library.errorSlopes);
     const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(study.parameters.size()));
     Replicas replicas(emulator, layout, evidence, random);
-    const Calibration calibration = Calibrator(study, evidence, replicas, numbers, random).calibrate();
+    const Calibration calibration = calibrate(study, evidence, replicas, numbers, random);
     writePlan(study, emulator, layout, numbers, evidence, calibration,
         visibility(study, evidence, replicas, calibration, numbers, random), out);
 }

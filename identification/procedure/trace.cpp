@@ -272,7 +272,7 @@ private:
     {
         const Measured& measured = answer_.measured;
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
-        answer_.calibration = Calibrator(study_, evidence, replicas, measured, random_).calibrate();
+        answer_.calibration = calibrate(study_, evidence, replicas, measured, random_);
         const Calibration& calibration = answer_.calibration;
         const Evidences evidences = evidence(measured);
         const Odds odds = oddsOf(study_, evidences);

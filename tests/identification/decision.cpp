@@ -64,8 +64,7 @@ TEST(Decision, HasItsNominalRates)
     Bench bench;
     const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
     Replicas replicas(*bench.emulator, bench.layout, evidence, bench.random);
-    const Calibration calibration =
-        Calibrator(bench.study, evidence, replicas, bench.measured, bench.random).calibrate();
+    const Calibration calibration = calibrate(bench.study, evidence, replicas, bench.measured, bench.random);
     Replicas others(*bench.emulator, bench.layout, evidence, bench.random);
     constexpr int draws = 150;
     int alarms = 0;
@@ -283,8 +282,8 @@ TEST(Decision, InterpolatesBetweenAddedNodes)
     effect.bounds = {-1, 1};
     const Grid grid(effect, {0.01, -0.3});
     const auto cubic = [](double a) { return 2 - a + 3 * a * a - 4 * a * a * a; };
-    ASSERT_EQ(grid.amplitudes().size(), 19);
-    const Eigen::VectorXd values = grid.amplitudes().unaryExpr(cubic);
+    ASSERT_EQ(grid.amplitudes.size(), 19);
+    const Eigen::VectorXd values = grid.amplitudes.unaryExpr(cubic);
     for (const double amplitude : {-1.0, -0.31, 0.0, 0.005, 0.07, 0.99})
     {
         EXPECT_NEAR(grid.weightsAt(amplitude) * values, cubic(amplitude), 1e-10);
@@ -318,8 +317,7 @@ TEST(Decision, NothingIsDrawnFromBeyondARange)
     friction.upper = friction.mean + 0.2 * friction.sd;
     const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
     Replicas replicas(*bench.emulator, bench.layout, evidence, bench.random);
-    const Calibration calibration =
-        Calibrator(bench.study, evidence, replicas, bench.measured, bench.random).calibrate();
+    const Calibration calibration = calibrate(bench.study, evidence, replicas, bench.measured, bench.random);
     EXPECT_LT(calibration.critical, 10) << "it would be 36 with draws from beyond the range";
 }
 

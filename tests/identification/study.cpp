@@ -1,5 +1,4 @@
 #include "emulator/library.h"
-#include "emulator/plackettBurman.h"
 #include "runner/studySimulator.h"
 #include "study/entries.h"
 #include "study/expression.h"
