@@ -80,11 +80,11 @@ void readFeatures(const YamlPlace& place, const Study& study, CommonError& error
 void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
 {
     const Effect& effect = study.effects[indexOf(place.at("effect"), study.effects)];
-    const std::string reason = effect.isSwitch ? "is on or off"
+    const std::string reason = effect.isSwitch   ? "is on or off"
                                : effect.measured ? "has a measured amplitude ('measured')"
                                                  : "";
-    place.at("effect").failIf(!reason.empty(), "names an effect that " + reason
-                                                   + "; allowed are effects with a formula in a and without 'measured'");
+    place.at("effect").failIf(!reason.empty(),
+        "names an effect that " + reason + "; allowed are effects with a formula in a and without 'measured'");
     error.name = place.textOr("name", effect.name);
     error.variable = "a";
     error.unit = place.at("sd").positive();
@@ -93,8 +93,8 @@ void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
     error.chainSize = effect.chainSize;
     if (!place.has("conditions"))
     {
-        error.conditions = numbersWhere(
-            study.conditions.size(), [&](std::size_t c) { return acts(effect, study.conditions[c]); });
+        error.conditions =
+            numbersWhere(study.conditions.size(), [&](std::size_t c) { return acts(effect, study.conditions[c]); });
     }
 }
 

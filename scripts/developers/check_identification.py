@@ -58,6 +58,7 @@ def run(seed: str, options: list[str]) -> None:
 
 def keep(result: dict[str, Any]) -> None:
     """In the place of an earlier result of the same seed and kind."""
+
     def place(one: dict[str, Any]) -> tuple[tuple[bool, bool], int]:
         return kind_of(one), one["seed"]
 

@@ -474,9 +474,9 @@ Json check(const Options& options)
         count(tally);
     }
     return {{"study", study.name}, {"gauged", mapped(study.commonErrors, std::mem_fn(&CommonError::name))},
-        {"seed", options.seed}, {"exact", options.exact}, {"libraries", options.libraries}, {"draws", options.draws}, {"falseAlarms", share(nulls.detected, nulls.trials)},
-        {"pValueBelowHalf", share(below, nulls.trials)}, {"nulls", nulls.json()}, {"effects", effects.json()},
-        {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
+        {"seed", options.seed}, {"exact", options.exact}, {"libraries", options.libraries}, {"draws", options.draws},
+        {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
+        {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
         {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", decoys.json()},
         {"outsideLibrary", all(outside)}, {"wrongNames", wrongNames}, {"pairs", pairs.json()},
         {"oneOfTwoNamed", share(oneOfTwo, pairs.detected)}, {"falseAcceptance", share(wrongBetter, answered)},
