@@ -113,7 +113,7 @@ CommonError readError(const YamlPlace& place, const Study& study)
         readGauged(place, study, error);
         return error;
     }
-    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features"});
+    place.failIf(place.has("sd"), "has 'sd', which goes with 'effect' only");
     error.name = place.at("name").text();
     readEntries(place.optional("set"), study, error);
     readFeatures(place.optional("features"), study, error);

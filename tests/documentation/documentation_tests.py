@@ -266,7 +266,7 @@ class Reference(unittest.TestCase):
         self.assert_same(set(listed("options-pimpleDemFoam")), options, "pimpleDemFoam")
         code = sources(["identification"])["identification/traceResidual.cpp"]
         options = set(re.findall(r'add_(?:option|flag)\(\s*"(--\w+)"', code))
-        commands = set(re.findall(r'add_subcommand\(\s*"(\w+)"', code))
+        commands = set(re.findall(r'(?:add_subcommand|addCommand)\(\s*"(\w+)"', code))
         self.assertIn("--execute", options)
         self.assert_same(
             {name.split()[0] for name in listed("options-traceResidual")}, options | commands, "traceResidual"

@@ -272,6 +272,8 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"range: [0", "of: sise, range: [0", "study.yaml:11:", "did you mean 'size'"},
         {"[-1, 1] }", "[-1, 1] }\ncommonErrors: [{ effect: sise, sd: 1 }]", "study.yaml:14:", "did you mean 'size'"},
         {"[-1, 1] }", "[-1, 1] }\ncommonErrors: [{ effect: size }]", "study.yaml:14:", "needs the key 'sd'"},
+        {"[-1, 1] }", "[-1, 1] }\ncommonErrors: [{ name: n, sd: 1, chain: { gain: z } }]",
+            "study.yaml:14:", "goes with 'effect'"},
         {"[-1, 1] }", "[-1, 1], measured: { mean: 0, sd: 1 } }\ncommonErrors: [{ effect: size, sd: 1 }]",
             "study.yaml:14:", "has a measured amplitude"},
         {"(1 + a)", "(1 + a", "study.yaml:13:", "Missing parenthesis"},
