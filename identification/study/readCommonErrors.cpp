@@ -31,12 +31,11 @@ std::vector<std::size_t> chosenConditions(const YamlPlace& place, const Study& s
 }
 
 /// Requires that a formula gives the unchanged value at z = 0 and another one at z = 1.
-void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself,
-    const CommonError& error)
+void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself)
 {
     constexpr double tolerance = 1e-9;
     const auto at = [&](double z) {
-        variables[error.variable] = z * error.unit;
+        variables["z"] = z;
         return valueOf(place, formula, variables);
     };
     const double there = at(0.0);
@@ -58,7 +57,7 @@ void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
             const auto itself = numbers.find(entry);
             value.failIf(itself == numbers.end(),
                 "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
-            checkAtZero(value, formula, numbers, itself->second, error);
+            checkAtZero(value, formula, numbers, itself->second);
         }
         error.entries.emplace(entry, formula);
     }
@@ -120,7 +119,7 @@ CommonError readError(const YamlPlace& place, const Study& study)
     if (place.has("chain"))
     {
         std::tie(error.chainOperation, error.chainSize) = readChain(place.at("chain"));
-        checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0, error);
+        checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0);
     }
     place.failIf(error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero(),
         "changes nothing; 'set' and 'features' need at least one key");
