@@ -260,7 +260,8 @@ private:
     static constexpr int repeats = 3;
     static constexpr int repetitions = 40; // of measurement and prediction, for the expected fall
 
-    /// The truth as measured: parameters and common errors are drawn from their distributions. The same for all measurements of a data set.
+    /// The truth as measured: parameters and common errors are drawn from their distributions. The same for all
+    /// measurements of a data set.
     Setting settingOf(const Truth& truth, const StudySimulator& simulator) const
     {
         std::mt19937_64 random(allEffects_.settings.seed);
