@@ -10,6 +10,7 @@
 #include "runner/caseSimulator.h"
 #include "runner/jobs.h"
 #include "study/readStudy.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,6 +159,10 @@ void sayContents(const Study& study, const std::vector<MeasuredCondition>& train
         << counted(numbers, "number") << (notMeasured > 0 ? ", some not measured yet" : "") << "; "
         << counted(study.parameters.size(), "fitted parameter") << names << (names.empty() ? "" : ")") << "; "
         << counted(study.effects.size(), "effect") << '\n';
+    if (!study.leftOut.empty())
+    {
+        out << "effects of the library that are left out: " << listed(study.leftOut) << '\n';
+    }
     const auto heldOut = study.conditionsOf(Role::heldOut).size();
     out << (heldOut > 0 ? counted(heldOut, "condition") + " held out to test the answer"
                         : "nothing is held out, so the answer will be tested on no prediction")

@@ -4,7 +4,6 @@
 #include "tokens/didYouMean.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace clepsydra::identification
@@ -33,13 +32,12 @@ std::vector<std::size_t> chosenConditions(const YamlPlace& place, const Study& s
 /// Requires that a formula gives the unchanged value at z = 0 and another one at z = 1.
 void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself)
 {
-    constexpr double tolerance = 1e-9;
     const auto at = [&](double z) {
         variables["z"] = z;
         return valueOf(place, formula, variables);
     };
     const double there = at(0.0);
-    place.failIf(!(std::abs(there - itself) <= tolerance * std::abs(itself)),
+    place.failIf(!isUnchanged(there, itself),
         "gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
             + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
     place.failIf(

@@ -2,6 +2,7 @@
 
 #include "study/readValues.h"
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <tuple>
@@ -66,6 +67,11 @@ Effect readEffect(const YamlPlace& place)
     {
         std::tie(effect.chainOperation, effect.chainSize) = readChain(place.at("chain"));
     }
+    const auto holdsAmplitude = [](const auto& entry) { return entry.second.holds("a"); };
+    place.failIf(!effect.isSwitch && !std::any_of(effect.entries.begin(), effect.entries.end(), holdsAmplitude)
+                     && !(effect.chainSize && effect.chainSize->holds("a")),
+        "no formula of effect '" + effect.name
+            + "' contains its amplitude a; allowed is \"entry*(1 + 0.1*a)\", or 'switch: true' with fixed values");
     place.optional("scatter").failIf(effect.raisesScatter && effect.isOfChain(),
         "the measuring chain is applied to each curve and does not scatter; allowed for an effect with 'set'");
     auto& [lower, upper] = effect.bounds;

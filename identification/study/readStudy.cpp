@@ -67,8 +67,32 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
     return parameter;
 }
 
+/// What an effect changes at amplitude 0, where it must be absent; empty if it changes nothing there.
+std::string changedAtZero(const YamlPlace& place, const Effect& effect, const Study& study)
+{
+    for (const auto& condition : study.conditions)
+    {
+        auto numbers = numbersOf(plainEntries(study.simulator, condition));
+        numbers["a"] = 0.0;
+        for (const auto& [entry, formula] : effect.entries)
+        {
+            const auto own = numbers.find(entry);
+            if (acts(effect, condition) && formula.holds("a") && own != numbers.end())
+            {
+                const double value = valueOf(place.at("set").at(entry), formula, numbers);
+                if (!isUnchanged(value, own->second))
+                {
+                    return entry + " is " + textOf(own->second) + " in the case, but " + textOf(value) + " at a = 0";
+                }
+            }
+        }
+    }
+    return "";
+}
+
 /// Reads the effects of the libraries and of the study. The study's own effects replace those of the same name. A
-/// library serves many cases: effects that this case has no entries for are left out, and the report lists them.
+/// library serves many cases: effects that this case has no entries for, or whose formulas start from other values than
+/// the case's, are left out, and the report lists them.
 void readAllEffects(const YamlPlace& root, Study& study)
 {
     std::vector<Effect>& all = study.effects;
@@ -83,25 +107,35 @@ void readAllEffects(const YamlPlace& root, Study& study)
     {
         const auto library = YamlPlace::fileAt(file.path());
         library.allow({"about", "effects"});
-        for (const auto& effect : readEffects(library.at("effects")))
+        const auto offered = readEffects(library.at("effects"));
+        for (std::size_t i = 0; i < offered.size(); ++i)
         {
-            if (const auto missing = missingEntries(effect, known); missing.empty())
+            const auto missing = missingEntries(offered[i], known);
+            const std::string reason = missing.empty()
+                                           ? changedAtZero(library.at("effects").list()[i], offered[i], study)
+                                           : "the case has no entry " + listed(missing);
+            if (reason.empty())
             {
-                add(effect);
+                add(offered[i]);
             }
             else
             {
-                study.leftOut.push_back(effect.name + " (the case has no entry " + listed(missing) + ")");
+                study.leftOut.push_back(offered[i].name + " (" + reason + ")");
             }
         }
     }
     const auto own = readEffects(root.optional("effects"));
     for (std::size_t i = 0; i < own.size(); ++i)
     {
+        const YamlPlace place = root.at("effects").list()[i];
         for (const auto& entry : missingEntries(own[i], known))
         {
-            requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.simulator);
+            requireEntry(place.at("set").at(entry), entry, study.simulator);
         }
+        const std::string changed = changedAtZero(place, own[i], study);
+        place.failIf(!changed.empty(), "effect '" + own[i].name + "': " + changed
+                                           + ", where an effect must be absent; allowed is a formula such as "
+                                             "\"entry*(1 + 0.1*a)\" or \"entry + 0.1*a\"");
     }
     std::for_each(own.begin(), own.end(), add);
     for (const std::string key : {"onlyEffects", "withoutEffects"})

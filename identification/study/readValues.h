@@ -5,6 +5,7 @@
 #include "study/yaml.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -75,6 +76,13 @@ Expression readFormula(const YamlPlace& place);
 
 /// Value of a formula. \param place  of the formula, for the message \throws StudyError if the value is not finite
 double valueOf(const YamlPlace& place, const Expression& formula, const Expression::Variables& variables);
+
+/// Whether a formula gives the unchanged value of an entry, but for rounding.
+inline bool isUnchanged(double value, double unchanged)
+{
+    constexpr double tolerance = 1e-9;
+    return std::abs(value - unchanged) <= tolerance * std::abs(unchanged);
+}
 
 /// Reads an operation of the measuring chain with the formula of its size: { gain: "0.01*a" }.
 /// \throws StudyError naming file, line and the known operations

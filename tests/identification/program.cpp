@@ -386,6 +386,10 @@ TEST(Program, PlansBeforeItRuns)
         << std::regex_replace(right, std::regex("role: heldOut"), "role: training");
     ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("nothing is held out"));
+    std::ofstream(workshop.path() / "ghosts.yaml") << "effects: [ { name: ghost, set: { ectoplasm: a } } ]\n";
+    std::ofstream(workshop.path() / "study.yaml") << right << "effectsFrom: ghosts.yaml\n";
+    ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
+    EXPECT_THAT(workshop.output, HasSubstr("left out: ghost (the case has no entry ectoplasm)"));
     std::ofstream(workshop.path() / "study.yaml") << right;
     ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("named from"));
