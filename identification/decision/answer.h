@@ -36,6 +36,7 @@ struct EffectFinding
     double logOdds = 0.0;       // against no effect, including the prior weight
     double probability = 0.0;   // given that there is a cause
     double threshold = 0.0;     // smallest probability at which it belongs to the set
+    double chiSquare = 0.0;     // at its most likely amplitude
     bool known = true;          // false if all its runs have failed
     bool inSet = false;
     std::string notInSetBecause; // of an effect whose probability is large enough for the set

@@ -4,6 +4,8 @@
 #include "emulator/settings.h"
 #include "study/measurements.h"
 
+#include <stdexcept>
+
 namespace clepsydra::identification
 {
 
@@ -74,6 +76,7 @@ Eigen::MatrixXd sharedErrorSlopes(
         }
         return meanFeatures(featureRows(simulations, condition, study.featureCount()));
     };
+    const Eigen::ArrayXd here = meanFeatures(featureRows(plain, condition, study.featureCount()));
     Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(study.featureCount(), study.commonErrors.size());
     for (std::size_t i = 0; i < study.commonErrors.size(); ++i)
     {
@@ -83,8 +86,22 @@ Eigen::MatrixXd sharedErrorSlopes(
             continue;
         }
         auto slope = slopes.col(i);
-        slope = error.featureErrors.isZero() ? Eigen::VectorXd((meanAt(i, step) - meanAt(i, -step)) / (2.0 * step))
-                                             : error.featureErrors;
+        if (!error.featureErrors.isZero())
+        {
+            slope = error.featureErrors;
+            continue;
+        }
+        const Eigen::ArrayXd above = meanAt(i, step);
+        const Eigen::ArrayXd below = meanAt(i, -step);
+        const Eigen::ArrayXd both = (above - below) / (2.0 * step);
+        const Eigen::ArrayXd one = (above.isFinite().select(above - here, here - below)) / step;
+        slope = both.isFinite().select(both, one);
+        if (here.isFinite().any() && !(here.isFinite() && slope.array().isFinite()).any())
+        {
+            throw std::runtime_error("condition '" + study.conditions[condition].name
+                                     + "': all runs with the common error '" + error.name + "' have failed"
+                                     + studySimulator.effort().lastFailure());
+        }
         slope = slope.array().isFinite().select(slope, 0.0);
     }
     if ((study.modelError.array() > 0.0).any())

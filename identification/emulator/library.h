@@ -38,9 +38,11 @@ double differenceStep(const Study& study);
 std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition);
 
 /// Change of each feature per standard deviation of each error that conditions share, to first order: features x
-/// errors. Common errors come first (the slope is 0 if the curve lacks the feature), then, if there is any, the model
-/// error of each feature: a coarse mesh errs alike in all conditions.
+/// errors. Common errors come first (by one-sided differences where the feature is missing on the other side; 0 where it
+/// is missing on both), then, if there is any, the model error of each feature: a coarse mesh errs alike in all
+/// conditions.
 /// \param plain  runs without effects; errors of the measuring chain are applied to their curves
+/// \throws std::runtime_error if all runs with an error fail
 Eigen::MatrixXd sharedErrorSlopes(
     StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain);
 

@@ -563,9 +563,10 @@ private:
             {std::pair(answer_.decision == Decision::named, "it is not the only explanation"),
                 std::pair(result_.after->overNull.isBeyondChance(level),
                     "it does not predict significantly better than no effect"),
-                std::pair(result_.overOneMore.isBeyondChance(level), "one more free parameter predicts as well"),
+                std::pair(
+                    result_.overOneMore.isBeyondChance(level), "one more free parameter predicts as well or better"),
                 std::pair(!result_.gaussianProcess || result_.overGaussianProcess.isBeyondChance(level),
-                    "a Gaussian process on the residual predicts as well")})
+                    "a Gaussian process on the residual predicts as well or better")})
         {
             if (!isRefuted)
             {

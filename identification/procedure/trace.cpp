@@ -25,7 +25,7 @@ struct Rounds
 constexpr Rounds rounds{3, 1};
 
 /// If runs do not scatter, one run at each fit is enough, and each round brings the fits closer to the truth.
-constexpr Rounds roundsOfExact{9, 4};
+constexpr Rounds roundsOfExact{9, 9};
 
 /// Largest number of explanations that get runs, in addition to no effect.
 constexpr std::size_t mostContenders = 4;
@@ -222,17 +222,19 @@ private:
                 continue;
             }
             const Contender own{presentAt(pair.effects, pair.fits), pair.fits.front().parameters, 1.0};
+            const Explanation found = explanation(pair.effects, pair.fits, pair.logOdds, pair.probability);
             pair.inSet = scatters_ || openRuns(study_, *answer_.emulator, answer_.layout, {own}, runs_).empty();
             if (pair.inSet)
             {
-                answer_.set.push_back(explanation(pair.effects, pair.fits, pair.logOdds, pair.probability));
+                answer_.set.push_back(found);
             }
             else
             {
                 answer_.remarks.push_back(
                     nameOf(study_, pair.effects)
-                    + " might explain the measurements, but no run near its fit confirms it: each run that was made "
-                      "has moved the fit");
+                    + " might explain the measurements, but no run near its fit confirms it: "
+                    + (found.runs.empty() ? "none was made, since other pairs looked better at first"
+                                          : "each run that was made has moved the fit"));
             }
         }
         if (!answer_.set.empty())
@@ -288,6 +290,7 @@ private:
             finding.parameters = physical(study_, finding.fit.parameters);
             finding.logOdds = odds.effects(e) + odds.logOdds;
             finding.probability = std::exp(odds.effects(e));
+            finding.chiSquare = odds.chiSquares(e);
             finding.threshold = std::exp(calibration.membership(e));
             finding.known = answer_.emulator->knows(e);
             if (study_.effects[e].measured && finding.known)

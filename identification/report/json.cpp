@@ -113,7 +113,7 @@ Json effectsJson(const Findings& findings)
             {"amplitude", finding.fit.amplitude}, {"standardError", finding.fit.sd},
             {"interval95", {finding.fit.lower, finding.fit.upper}},
             {"range", {effect.bounds.lower, effect.bounds.upper}}, {"sets", entriesAt(effect, finding.fit.amplitude)},
-            {"chiSquare", finding.fit.chiSquare}, {"logOdds", finding.logOdds}, {"probability", finding.probability},
+            {"chiSquare", finding.chiSquare}, {"logOdds", finding.logOdds}, {"probability", finding.probability},
             {"probabilityNeeded", finding.threshold}, {"notInSetBecause", textOrNull(finding.notInSetBecause)},
             {"atEndOfRange", textOrNull(effect.isSwitch || !finding.known
                                             ? ""
@@ -266,7 +266,7 @@ Json nextJson(const Findings& findings)
             {
                 features[findings.study->features[f].name] = {{"value", outcome.features(f)}, {"sd", outcome.sd(f)}};
             }
-            outcomes.push_back({{"if", outcome.name}, {"probability", outcome.probability}, {"features", features}});
+            outcomes.push_back({{"if", outcome.name}, {"weight", outcome.probability}, {"features", features}});
         }
         list.push_back({{"condition", findings.study->conditions[next.condition].name}, {"separation", next.separation},
             {"perCost", next.perCost}, {"predicted", outcomes}});

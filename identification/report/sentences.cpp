@@ -100,8 +100,13 @@ std::string largestOf(const Study& study, const std::vector<Residual>& residuals
     const auto largest = std::max_element(residuals.begin(), residuals.end(),
         [&](const Residual& a, const Residual& b) { return inErrors(a) < inErrors(b); });
     const Feature& feature = study.features[largest->feature];
+    Estimate residual = largest->estimate;
+    if (feature.kind->isLog()) // large differences of logarithms are no relative differences
+    {
+        residual = {std::expm1(residual.value), std::exp(residual.value) * residual.standardError};
+    }
     return "condition " + study.conditions[largest->condition].name + ", feature '" + feature.name
-           + "': measured minus simulated is " + errorText(feature.kind->isLog(), largest->estimate);
+           + "': measured minus simulated is " + errorText(feature.kind->isLog(), residual);
 }
 
 /// The condition whose residual an explanation reduces most, in units of the standard errors; null if there is only one.
@@ -152,6 +157,7 @@ Json refutingFacts(const Findings& findings, const Explanation& best)
 /// Why probable effects are not in the set, and what is doubtful about those that are.
 Json doubtsOf(const Findings& findings)
 {
+    constexpr double worthAReason = 0.01; // probability
     Json doubts = Json::array();
     for (std::size_t e = 0; e < findings.answer->effects.size(); ++e)
     {
@@ -159,7 +165,8 @@ Json doubtsOf(const Findings& findings)
         const EffectFinding& finding = findings.answer->effects[e];
         const auto agrees = agreesWithMeasurement(effect, finding);
         doubts.push_back({{"effect", effect.name}, {"capitalised", capitalised(effect.name)},
-            {"probability", finding.probability}, {"excluded", finding.notInSetBecause},
+            {"probability", finding.probability},
+            {"excluded", finding.probability < worthAReason ? "" : finding.notInSetBecause},
             {"containsZero", finding.inSet && !effect.isSwitch && finding.fit.lower <= 0.0 && finding.fit.upper >= 0.0},
             {"compared", nullptr}});
         if (finding.inSet && agrees)
@@ -211,8 +218,9 @@ Json heldOutFacts(const Findings& findings)
         return facts;
     }
     const auto against = [&](const LogRatio& ratio, const std::string& other) {
-        return std::string(
-                   ratio.isBeyondChance(study.settings.level) ? "better than " : "not significantly better than ")
+        return std::string(ratio.isBeyondChance(study.settings.level) ? "better than "
+                           : ratio.value >= 0.0                       ? "not significantly better than "
+                                                                      : "worse than ")
                + other + " (log ratio " + rounded(ratio.value) + ", " + pValueText(ratio.pValue) + ')';
     };
     std::vector<std::string> compared = {
@@ -332,12 +340,13 @@ Json factsOf(const Findings& findings)
         {"found", !answer.set.empty()}, {"single", answer.set.size() == 1}, {"family", answer.family},
         {"predicts", predicts}, {"confirmed", isConfirmed}, {"members", members}, {"causes", joined(causes, ", or ")},
         {"probabilities", probabilities}, {"strained", joined(strainedParameters(findings), " and ")},
-        {"pValue", answer.pValue}, {"otherProbability", answer.otherProbability}, {"doubts", doubtsOf(findings)},
-        {"hints", hintsOf(findings)}, {"atEnds", mapped(valuesAtEnds(findings), capitalised)},
-        {"largest", largestOf(study, without)}, {"scatters", answer.emulator->scatters()},
-        {"wrongNames", textOf(100.0 * study.settings.wrongNames)}, {"wrongNamesFound", answer.calibration.wrongNames},
-        {"modelError", study.modelError.maxCoeff() > 0.0}, {"leftOut", mapped(study.leftOut, inLine)},
-        {"differ", study.simulator.scatters()}};
+        {"pValue", answer.pValue}, {"otherProbability", answer.otherProbability},
+        {"otherByRule", answer.unlistedCauseInSet && !(answer.otherProbability >= answer.otherThreshold)},
+        {"doubts", doubtsOf(findings)}, {"hints", hintsOf(findings)},
+        {"atEnds", mapped(valuesAtEnds(findings), capitalised)}, {"largest", largestOf(study, without)},
+        {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
+        {"wrongNamesFound", answer.calibration.wrongNames}, {"modelError", study.modelError.maxCoeff() > 0.0},
+        {"leftOut", mapped(study.leftOut, inLine)}, {"differ", study.simulator.scatters()}};
     facts["hint"] = facts["hints"].empty() ? Json() : facts["hints"].front()["is"];
     facts["priors"] = mapped(study.parameters, [](const Parameter& one) -> Json {
         return {{"name", one.name}, {"mean", textOf(one.mean)}, {"sd", textOf(one.sd)}, {nameOf(one.from), true}};
@@ -355,9 +364,16 @@ Json factsOf(const Findings& findings)
         facts["best"] = nameOf(study, best->effects);
         facts["deciding"] = decidingCondition(study, without, with);
     }
-    if (!study.parameters.empty())
+    std::vector<std::string> names; // of parameters that act without an effect
+    for (const auto& parameter : study.parameters)
     {
-        const auto names = mapped(study.parameters, [](const Parameter& one) { return one.name; });
+        if (!parameter.effect)
+        {
+            names.push_back(parameter.name);
+        }
+    }
+    if (!names.empty())
+    {
         facts["parameters"] = {{"names", capitalised(joined(names, " and "))},
             {"prior", rmsInErrors(residualsOf(findings, findings.studySimulator->plainSetting()))},
             {"fitted", rmsInErrors(without)}, {"residual", rmsInErrors(with)}};

@@ -37,9 +37,8 @@ void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::
         return valueOf(place, formula, variables);
     };
     const double there = at(0.0);
-    place.failIf(!isUnchanged(there, itself),
-        "gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
-            + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
+    place.failIf(!isUnchanged(there, itself), "gives " + textOf(there) + " at z = 0 (no error), but must give "
+                                                  + textOf(itself) + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
     place.failIf(
         at(1.0) == there, "must contain z, the error in standard deviations, as in \"particleDiameter*(1 + 0.01*z)\"");
 }
@@ -77,11 +76,13 @@ void readFeatures(const YamlPlace& place, const Study& study, CommonError& error
 void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
 {
     const Effect& effect = study.effects[indexOf(place.at("effect"), study.effects)];
-    const std::string reason = effect.isSwitch   ? "is on or off"
-                               : effect.measured ? "has a measured amplitude ('measured')"
-                                                 : "";
-    place.at("effect").failIf(!reason.empty(),
-        "names an effect that " + reason + "; allowed are effects with a formula in a and without 'measured'");
+    const std::string reason = effect.isSwitch        ? "is on or off"
+                               : effect.raisesScatter ? "changes the scatter, which no error does"
+                               : effect.measured      ? "has a measured amplitude ('measured')"
+                                                      : "";
+    place.at("effect").failIf(
+        !reason.empty(), "names an effect that " + reason
+                             + "; allowed are effects with a formula in a and without 'scatter' or 'measured'");
     error.name = place.textOr("name", effect.name);
     error.variable = "a";
     error.unit = place.at("sd").positive();

@@ -208,8 +208,7 @@ void readSettings(const YamlPlace& root, Study& study)
         inference.at("level").fail(
             std::to_string(settings.draws) + " draws cannot resolve so small a level; raise 'level' or 'draws'");
     }
-    settings.oneMoreParameter =
-        inference.wordOr("oneMoreParameter", settings.oneMoreParameter, namesOf(chainOperations()));
+    settings.oneMoreParameter = inference.wordOr("oneMoreParameter", settings.oneMoreParameter, {"gain", "timeFactor"});
 }
 
 ExecutorSpecification readExecutor(const YamlPlace& place)

@@ -108,6 +108,7 @@ def table(seeds: list[dict[str, Any]]) -> None:
     for size in ("1.00", "0.50", "0.25"):
         row(f"the same, outside the library, size {size}", seeds, "outsideLibrary", size, "coverageOfFall")
     row("two effects: the pair in the set", seeds, "pairs", "truthInSetWhenDetected")
+    row("two effects: better, without being the pair", seeds, "pairs", "falseAcceptance")
     row("two effects: a name", seeds, "pairs", "namedWhenDetected")
     row("of these: of the pair, and no part of it", seeds, "pairs", "namedRightly")
 

@@ -353,6 +353,34 @@ TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
     EXPECT_TRUE(library.errorSlopes[1].isZero()) << "the errors belong to the other condition";
 }
 
+/// ln W = 5 y: a run with y below 0 fails, so that the slope is taken from the other side. An error whose runs all fail
+/// would be taken as 0, and is refused.
+TEST(CommonErrors, FailedRunsAreNoSlopeOfZero)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    CommonError& error = study.commonErrors.emplace_back();
+    error.name = "height";
+    error.conditions = {0};
+    error.featureErrors = Eigen::VectorXd::Zero(1);
+    error.entries.emplace("y", Expression("y + 0.01*z"));
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    simulator.failsWithNegativeY = true;
+    EXPECT_NEAR(makeLibrary(studySimulator).errorSlopes[0](0, 0), 0.05, 1e-6);
+    simulator.failsWithY = true;
+    try
+    {
+        makeLibrary(studySimulator);
+        FAIL() << "accepted";
+    }
+    catch (const std::runtime_error& problem)
+    {
+        EXPECT_THAT(problem.what(), ::testing::HasSubstr("all runs with the common error 'height' have failed"));
+        EXPECT_THAT(problem.what(), ::testing::HasSubstr("y is not possible"));
+    }
+}
+
 } // namespace
 
 } // namespace clepsydra::identification::tests

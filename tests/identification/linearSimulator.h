@@ -24,6 +24,7 @@ public:
     bool scatters = false;
     bool failsWithY = false;
     bool failsWithYAtEdge = false;
+    bool failsWithNegativeY = false;
     bool failsAlways = false;
     int failuresFirst = 0;
     double curvature = 0.0;
@@ -45,7 +46,7 @@ public:
             const auto own = defaults();
             all.insert(own.begin(), own.end());
             const auto p = numbersOf(all);
-            if (failsAlways || failuresFirst-- > 0
+            if (failsAlways || failuresFirst-- > 0 || (failsWithNegativeY && p.at("y") < 0.0)
                 || (p.at("y") != 0.0 && (failsWithY || (failsWithYAtEdge && p.at("edge") != 0.0))))
             {
                 results.push_back({{}, failsAlways ? "the power is off" : "y is not possible", 1.0, false});

@@ -275,8 +275,8 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
         {"amplitude: [-1, 1]", "switch: true", "study.yaml:13:", "which a switch does not have"},
         {"particleDiameter*(1 + a)", "2e-3", "study.yaml:13:", "contains its amplitude a"},
-        {"particleDiameter*(1 + a)", "1e-3*(1 + a)", "study.yaml:13:",
-            "particleDiameter is 0.002 in the case, but 0.001 at a = 0"},
+        {"particleDiameter*(1 + a)", "1e-3*(1 + a)",
+            "study.yaml:13:", "particleDiameter is 0.002 in the case, but 0.001 at a = 0"},
         {"set: { particleDiameter:", "set: { particleDiametre:", "study.yaml:13:", "no such entry"},
         {"seed: seed", "seed: seeds", "study.yaml:2:", "did you mean 'seed'"},
         {"set: { friction: 0.2 }", "set: { frictoin: 0.2 }", "study.yaml:9:", "did you mean 'friction'"},
@@ -328,6 +328,11 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"study: s", "study: s\ncommonErrors: [ { name: e, chain: { gain: z } }, { name: e, chain: { lag: z } } ]",
             "study.yaml:2:", "two common errors"},
         {"study: s", "study: s\ncommonErrors: [ { effect: sise, sd: 1 } ]", "study.yaml:2:", "did you mean 'size'"},
+        {"effects:\n",
+            "commonErrors: [ { effect: loud, sd: 1 } ]\neffects:\n"
+            "  - { name: loud, scatter: true, set: { friction: friction + a } }\n",
+            "study.yaml:12:", "changes the scatter"},
+        {"study: s", "study: s\ninference: { oneMoreParameter: lag }", "study.yaml:2:", "gain or timeFactor"},
         {"study: s", "study: s\ncommonErrors: [ { effect: size } ]", "study.yaml:2:", "needs the key 'sd'"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, sd: 1, chain: { gain: z } } ]",
             "study.yaml:2:", "goes with 'effect'"},
@@ -533,13 +538,13 @@ TEST(StudyFile, ShippedLibraries)
 TEST(StudyFile, LibraryEffectsThatDoNotSuitTheCaseAreLeftOut)
 {
     const TemporaryFolder folder;
-    folder.write("library.yaml",
-        "effects:\n  - { name: roll, set: { rolling: rolling + a } }\n  - { name: rub, set: { friction: friction + a } }\n"
-        "  - { name: rubber, set: { wall: 0.3*a } }\n");
+    folder.write("library.yaml", "effects:\n  - { name: roll, set: { rolling: rolling + a } }\n  - { name: rub, set: { "
+                                 "friction: friction + a } }\n"
+                                 "  - { name: rubber, set: { wall: 0.3*a } }\n");
     const Study study = studyOf(folder, goodStudy + "effectsFrom: library.yaml\n");
     EXPECT_EQ(namesOfItems(study.effects), (std::vector<std::string>{"rub", "size"}));
-    EXPECT_EQ(study.leftOut,
-        (std::vector<std::string>{"roll (the case has no entry rolling)", "rubber (wall is 0.3 in the case, but 0 at a = 0)"}));
+    EXPECT_EQ(study.leftOut, (std::vector<std::string>{"roll (the case has no entry rolling)",
+                                 "rubber (wall is 0.3 in the case, but 0 at a = 0)"}));
 }
 
 /// Effects of the water are left out of a study of dry conditions, with their parameters; the other effects keep
