@@ -162,8 +162,22 @@ def stiff() -> Any:
         )
     )
     return found + [
-        row("mu_submerged less mu_dry, with these", "-", difference(frictions["submerged"], frictions["dry"]), used)
+        row("mu_submerged less mu_dry, with these", "-", difference(frictions["submerged"], frictions["dry"]), used),
+        row(
+            "W_submerged at the friction that matches the dry rate, with these",
+            "g/s",
+            rate_at(series.stiff_law("submerged"), frictions["dry"]),
+            used,
+            paper.RATE["submerged"],
+        ),
     ]
+
+
+def rate_at(law: Any, friction: Value) -> Value:
+    """The law's rate, with its own error and the friction's."""
+    rate = law.value(friction.mean)
+    change = law.rate(friction.mean - friction.error) - law.rate(friction.mean + friction.error)
+    return Value(rate.mean, float(np.hypot(rate.error, change / 2)))
 
 
 def surge() -> Any:
