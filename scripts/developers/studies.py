@@ -32,7 +32,7 @@ STUDIES = {
     "particlesInTwoLiquids": ("particles in glycerol and in water", "Stokes' drag"),
     "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
     "slotHopper": ("plastic spheres and cylinders through a slot (digitised)", "spheres of the cylinders' volume"),
-    "paperRates": ("the published hopper's two rates, dry and submerged", "one friction"),
+    "paperRates": ("the published hopper's two rates, with corrections as known earlier", "one friction"),
 }
 
 
