@@ -29,8 +29,8 @@ SOURCES = {
     "submerged": "Wilson, Pfeifer, Meysingier & Durian, Papers in Physics 6, 060009 (2014)",
 }
 FINDING = (
-    "hoppers 2.5 holes wide (with plate, mesh and fill 7 to 9 % dry, 3 to 7 % under water), a friction of 0.15 for all, "
-    "which nobody measured, and the errors of the law's constants: cases/studies/dischargeGrid/expectation.md"
+    "hoppers 2.5 holes wide (with plate, mesh and fill 7 to 9 % dry, 3 to 7 % under water), a friction of 0.15 for "
+    "all, which nobody measured, and the errors of the law's constants: cases/studies/dischargeGrid/expectation.md"
 )
 
 
