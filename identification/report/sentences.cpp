@@ -347,6 +347,16 @@ Json factsOf(const Findings& findings)
         {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
         {"wrongNamesFound", answer.calibration.wrongNames}, {"modelError", study.modelError.maxCoeff() > 0.0},
         {"leftOut", mapped(study.leftOut, inLine)}, {"differ", study.simulator.scatters()}};
+    std::vector<std::string> interpolated; // members of the set without a run at their fit
+    for (const auto& each : answer.set)
+    {
+        if (each.runs.empty() && study.settings.decidingRuns > 0)
+        {
+            interpolated.push_back(nameOf(study, each.effects));
+        }
+    }
+    facts["interpolated"] = joined(interpolated, " and ");
+    facts["ofPairs"] = !answer.set.empty() && answer.set.front().effects.size() > 1;
     facts["hint"] = facts["hints"].empty() ? Json() : facts["hints"].front()["is"];
     facts["priors"] = mapped(study.parameters, [](const Parameter& one) -> Json {
         return {{"name", one.name}, {"mean", textOf(one.mean)}, {"sd", textOf(one.sd)}, {nameOf(one.from), true}};

@@ -6,7 +6,7 @@ usage: studies [STUDY ...] [--run]     from the committed reports (seconds); --r
        studies --leaveOut STUDY ...    each training condition in turn is left out and predicted from the others
        studies --picture FILE STUDY ...    the candidates, and measured and simulated values that no fit used
 
-Errors are those of held-out conditions: the study's own (results/), or a blind test set (results/heldOut, by
+Errors are those of held-out conditions: the study's own (results/), or those scored afterwards (results/heldOut, by
 scoreHeldOut), or training conditions left out in turn (results/leftOut), which no fit used, though the authors of the
 library may have known them. The first of these that exists is taken; the table states which. """
 
@@ -112,7 +112,7 @@ def unseen(name: str, report: Any) -> dict[str, Any]:
         return {", ".join(report["heldOut"]["conditions"]): report}
     scored = read(folder / "heldOut/report.json")
     if scored:
-        return {", ".join(scored["heldOut"]["conditions"]) + " (blind test set)": scored}
+        return {", ".join(scored["heldOut"]["conditions"]) + " (scored afterwards)": scored}
     left = {path.parent.name: read(path) for path in sorted(folder.glob("leftOut/*/report.json"))}
     return {f"{one} (left out: {answer(each)})": each for one, each in left.items()}
 

@@ -336,8 +336,10 @@ TEST(Sentence, GivesEachHintOnce)
         member.effects.push_back(0);
         member.fits.push_back(bench.answer.effects[0].fit);
     }
-    EXPECT_THAT(
-        sentencesOf(bench.findings).next, ElementsAre(HasSubstr("x can be measured independently: a plug gauge")));
+    const auto [summary, details, next, assumptions] = sentencesOf(bench.findings);
+    EXPECT_THAT(next, ElementsAre(HasSubstr("x can be measured independently: a plug gauge")));
+    EXPECT_THAT(details, Contains(StartsWith("If two effects act at once, the probabilities are: ")));
+    EXPECT_THAT(details, Contains("No run was made at the fit of y with x and clock with x: it is interpolated."));
 }
 
 /// A fit whose friction contradicts its independent measurement may compensate for a missing effect; the sentence must
@@ -360,7 +362,10 @@ TEST(Sentence, OfASingleMemberKeepsTheDoubt)
     bench.found(Decision::set, {{1, 0.5}}, true);
     bench.answer.otherProbability = 0.3;
     bench.answer.oddsOfName = {2.13, 3.46};
-    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("does not list 30 %")));
+    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(EndsWith("does not list 30 %.")));
+    bench.answer.otherThreshold = 0.4;
+    EXPECT_THAT(sentencesOf(bench.findings).details,
+        Contains(EndsWith("does not list 30 %, which stays a candidate because no name can be given.")));
     EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("causes are 2.1, and a name needs 3.5")));
     EXPECT_THAT(sentencesOf(bench.findings).summary,
         StartsWith("The residual has one of these causes: water that moves along with a particle (y 0.020), or a cause "
@@ -461,6 +466,8 @@ TEST(Sentence, GivesReasons)
     const auto details = sentencesOf(bench.findings).details;
     EXPECT_THAT(
         details, Contains("X is no candidate in spite of its probability, 30 %: it fits no better than no effect."));
+    bench.answer.effects[0].probability = 0.003; // needs no reason
+    EXPECT_THAT(sentencesOf(bench.findings).details, Each(Not(HasSubstr("X is no candidate"))));
     EXPECT_THAT(
         details, Contains("Friction lies at the upper end of its range, 0 to 1.0, in the fit without an effect."));
     EXPECT_THAT(details, Contains(HasSubstr("does not lie between y 0.012 and y 0.028 (95 %)")));
