@@ -88,8 +88,8 @@ def table(seeds: list[dict[str, Any]]) -> None:
     ):
         row(f"of these: {name}", seeds, "effects", key)
     row("of these named: rightly", seeds, "effects", "namedRightly")
-    detected = [one["effects"]["detected"]["count"] for one in seeds]
-    sizes = [one["effects"]["meanSetSize"] for one in seeds]
+    detected = [one["effects"]["detected"].get("count", 0) for one in seeds]
+    sizes = [one["effects"]["meanSetSize"] or 0 for one in seeds]
     print(f"| mean size of the set | {sum(n * size for n, size in zip(detected, sizes)) / sum(detected):.2f} |")
     worst = min(seeds[0]["byEffect"], key=lambda name: covered(seeds, name))
     row(f"truth in the set, worst effect ({worst})", seeds, "byEffect", worst, "truthInSetWhenDetected")
@@ -122,9 +122,9 @@ def counted(seeds: list[dict[str, Any]], *keys: Any) -> tuple[int, int]:
     parts = []
     for one in seeds:
         for key in keys:
-            one = one[key]
+            one = one.get(key, {})  # a kind of data sets may have been left out
         parts.append(one)
-    return sum(part.get("count", 0) for part in parts), sum(part["of"] for part in parts)
+    return sum(part.get("count", 0) for part in parts), sum(part.get("of", 0) for part in parts)
 
 
 def row(name: str, seeds: list[dict[str, Any]], *keys: Any) -> None:
