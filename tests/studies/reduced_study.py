@@ -128,7 +128,8 @@ def settled_glycerol(study: dict[str, Any] | None, report: Any = None, committed
         return
     same_residual(report, committed)
     leads(report, "thickerBelow")
-    require(committed["name"] == "thickerBelow", f"the committed report names {committed['name']}")
+    members = [one["name"] for one in committed["set"]]
+    require(members == ["thickerBelow"], f"the committed report's candidates of the library are {members}")
 
 
 def same_residual(report: Any, committed: dict[str, Any], tolerance: float = 0.02) -> None:
