@@ -266,7 +266,7 @@ Json nextJson(const Findings& findings)
             {
                 features[findings.study->features[f].name] = {{"value", outcome.features(f)}, {"sd", outcome.sd(f)}};
             }
-            outcomes.push_back({{"if", outcome.name}, {"weight", outcome.probability}, {"features", features}});
+            outcomes.push_back({{"if", outcome.name}, {"probability", outcome.probability}, {"features", features}});
         }
         list.push_back({{"condition", findings.study->conditions[next.condition].name}, {"separation", next.separation},
             {"perCost", next.perCost}, {"predicted", outcomes}});

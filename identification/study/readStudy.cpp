@@ -1,6 +1,5 @@
 #include "study/readStudy.h"
 
-#include "effects/measuringChain.h"
 #include "study/readValues.h"
 #include "tokens/didYouMean.h"
 
@@ -68,16 +67,17 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
 }
 
 /// What an effect changes at amplitude 0, where it must be absent; empty if it changes nothing there.
-std::string changedAtZero(const YamlPlace& place, const Effect& effect, const Study& study)
+/// \param atZero  variables of formulas at amplitude 0, by condition
+std::string changedAtZero(
+    const YamlPlace& place, const Effect& effect, const Study& study, const std::vector<Expression::Variables>& atZero)
 {
-    for (const auto& condition : study.conditions)
+    for (std::size_t c = 0; c < atZero.size(); ++c)
     {
-        auto numbers = numbersOf(plainEntries(study.simulator, condition));
-        numbers["a"] = 0.0;
+        const auto& numbers = atZero[c];
         for (const auto& [entry, formula] : effect.entries)
         {
             const auto own = numbers.find(entry);
-            if (acts(effect, condition) && formula.holds("a") && own != numbers.end())
+            if (acts(effect, study.conditions[c]) && formula.holds("a") && own != numbers.end())
             {
                 const double value = valueOf(place.at("set").at(entry), formula, numbers);
                 if (!isUnchanged(value, own->second))
@@ -103,6 +103,11 @@ void readAllEffects(const YamlPlace& root, Study& study)
         all[same] = effect;
     };
     const Entries known = ownEntries(study.simulator);
+    const auto atZero = mapped(study.conditions, [&](const Condition& condition) {
+        auto numbers = numbersOf(plainEntries(study.simulator, condition));
+        numbers["a"] = 0.0;
+        return numbers;
+    });
     for (const auto& file : root.optional("effectsFrom").oneOrMore())
     {
         const auto library = YamlPlace::fileAt(file.path());
@@ -112,7 +117,7 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             const auto missing = missingEntries(offered[i], known);
             const std::string reason = missing.empty()
-                                           ? changedAtZero(library.at("effects").list()[i], offered[i], study)
+                                           ? changedAtZero(library.at("effects").list()[i], offered[i], study, atZero)
                                            : "the case has no entry " + listed(missing);
             if (reason.empty())
             {
@@ -132,7 +137,7 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             requireEntry(place.at("set").at(entry), entry, study.simulator);
         }
-        const std::string changed = changedAtZero(place, own[i], study);
+        const std::string changed = changedAtZero(place, own[i], study, atZero);
         place.failIf(!changed.empty(), "effect '" + own[i].name + "': " + changed
                                            + ", where an effect must be absent; allowed is a formula such as "
                                              "\"entry*(1 + 0.1*a)\" or \"entry + 0.1*a\"");
