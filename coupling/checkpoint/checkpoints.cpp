@@ -288,8 +288,11 @@ void setAside(const fileName& caseDirectory, const word& timeName, const std::st
         {
             if (isDir(part / timeName))
             {
-                const fileName aside = part / (prefix + timeName);
-                rmDir(aside, true);
+                fileName aside = part / (prefix + timeName);
+                for (int other = 2; isDir(aside); ++other)
+                {
+                    aside = part / (prefix + timeName + '-' + Foam::name(other));
+                }
                 mv(part / timeName, aside);
             }
         }
@@ -489,7 +492,8 @@ void Checkpoints::setAsideUnusable(const argList& args)
     const UnusableTimes found = unusableTimes(caseDirectory);
     for (const word& time : found.unfinished)
     {
-        Info << "Setting aside time " << time << ": the run ended while it was being written" << endl;
+        Info << "Setting aside time " << time << " as unfinished." << time << ": it has no whole checkpoint, as where "
+             << "the run was killed while it wrote it" << endl;
         setAside(caseDirectory, time, "unfinished.");
     }
     for (const word& time : found.damaged)

@@ -29,11 +29,11 @@ struct MotionHistory
 static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as plain doubles beside the particle");
 
 /// History force -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A particle's history begins at its first
-/// step with the coupling; the relative velocity is taken as constant before. The contribution of the last DEM step is
+/// step in the fluid (one that has just been inserted, or is outside the mesh, is in none); the relative velocity is
+/// taken as constant before. The contribution of the last DEM step is
 /// implicit in the particle's inertia.
 ///
 ///     historyForceProps { law Basset; }         // creeping flow
-///     historyForceProps { law MeiAdrian; }      // finite Re; the default
 ///     historyForceProps { law MeiAdrian; }      // finite Re; the default
 class HistoryForce : public ForceOf<ForceFamily::history>
 {
@@ -62,6 +62,12 @@ public:
         for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
             auto& history = *reinterpret_cast<MotionHistory*>(particles.memory + particle * particles.memorySize);
+            if (particles.advancesMemory && !(particles.state[particle].fluid.submergedFraction > 0))
+            {
+                history.begun = 0;
+                history.modes.setZero();
+                continue;
+            }
             const Vector3d velocity = particles.velocity.col(particle) - particles.state[particle].fluid.velocity;
             if (particles.advancesMemory)
             {

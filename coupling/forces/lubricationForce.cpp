@@ -37,6 +37,12 @@ public:
           walls_(readWallPlanes(coefficients))
     {
         requireKnownEntries(coefficients, {"roughness", "reach", "wallReach", "walls"});
+        if (coefficients.found("wallReach") && walls_.empty())
+        {
+            FatalIOErrorInFunction(coefficients)
+                << "Entry 'wallReach' has no effect without 'walls'; allowed: "
+                << "'walls ( ((point) (normal)) ... );' beside it, or no 'wallReach'" << Foam::exit(Foam::FatalIOError);
+        }
     }
 
     void add(const ParticlesView& particles, ForceSum& sum) const override

@@ -24,9 +24,10 @@ namespace
 {
 
 const word countEntry = "particlesInHopper";
-const word lastDepartureEntry = "lastDeparture";
-/// Times and masses alternately, as text: OpenFOAM would write numbers with the precision of the fields, and the rate
-/// would differ.
+/// As text, like the samples: OpenFOAM would write numbers with the precision of the fields, and a resumed run would
+/// stop at another time and have another rate.
+const word lastDepartureEntry = "timeOfLastDeparture";
+/// Times and masses alternately.
 const word samplesEntry = "samplesOfRate";
 const word rowsEntry = "rows";
 
@@ -201,7 +202,7 @@ void MassInHopper::sample()
 
     if (count < lastParticles_)
     {
-        setProperty(lastDepartureEntry, now);
+        setProperty(lastDepartureEntry, string(exactText(now)));
     }
     setResult(countEntry, count);
     setProperty(countEntry, count);
@@ -213,15 +214,15 @@ void MassInHopper::sample()
 
 void MassInHopper::stopIfFlowStopped()
 {
-    scalar lastDeparture = 0;
+    string lastDeparture;
     if (stopping_ || stopAfter_ <= 0 || !getProperty(lastDepartureEntry, lastDeparture)
-        || time_.value() - lastDeparture < stopAfter_ * (1 - roundingOfTime))
+        || time_.value() - std::stod(lastDeparture) < stopAfter_ * (1 - roundingOfTime))
     {
         return;
     }
     stopping_ = true;
-    Info << type() << ' ' << name() << ": no particle has left since " << lastDeparture << " s, and " << lastParticles_
-         << " remain; the run ends" << endl;
+    Info << type() << ' ' << name() << ": no particle has left since " << lastDeparture.c_str() << " s, and "
+         << lastParticles_ << " remain; the run ends" << endl;
     time_.stopAt(Time::saWriteNow);
 }
 

@@ -192,9 +192,9 @@ void RunOutput::start()
     }
 }
 
-void RunOutput::checkDemStepOnce()
+void RunOutput::checkDemStepOfParticles()
 {
-    if (!demStepChecked_ && couplingStep_.conservation().particles() > 0)
+    if ((!demStepChecked_ || time_.writeTime()) && couplingStep_.conservation().particles() > 0)
     {
         const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), nullptr, mesh_);
         checkDemStep(scales, settings_.demDict());
@@ -237,7 +237,7 @@ void RunOutput::countReductions(bool atWriteTime)
 bool RunOutput::afterCouplingStep()
 {
     const PhaseTimers::Scope timing = couplingStep_.timers().time("output");
-    checkDemStepOnce();
+    checkDemStepOfParticles();
     if (runChecks_)
     {
         runChecks_->afterCouplingStep(couplingStep_.courantNumber());

@@ -60,7 +60,8 @@ public:
     void finish();
 
 private:
-    void checkDemStepOnce();
+    /// At the first step that has particles, and whenever a time is written: smaller ones may have been inserted.
+    void checkDemStepOfParticles();
     void checkBedOnce();
     void requireTablesWritten() const;
     void writeCheckpoint();

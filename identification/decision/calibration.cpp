@@ -95,6 +95,12 @@ Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
     return fit.parameters + fit.covariance.llt().matrixL() * z;
 }
 
+Eigen::VectorXd fromPrior(const Study& study, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    return Eigen::VectorXd::NullaryExpr(study.parameters.size(), [&] { return normal(random); });
+}
+
 double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
@@ -276,16 +282,10 @@ struct Calibrator
 
     void drawNull()
     {
-        // The parameters are drawn from their priors: data that move them far from there are a residual too (Box, J. R.
-        // Stat. Soc. A 143, 383 (1980)).
-        Fit prior;
-        const Eigen::Index parameters = study.parameters.size();
-        prior.parameters = Eigen::VectorXd::Zero(parameters);
-        prior.covariance = Eigen::MatrixXd::Identity(parameters, parameters);
         auto& all = calibration.nullStatistics;
         for (int i = 0; i < study.settings.draws; ++i)
         {
-            const auto [data, judge] = replicas.draw({}, around(prior, random), random);
+            const auto [data, judge] = replicas.draw({}, fromPrior(study, random), random);
             all.push_back(oddsOf(study, judge(data)).statistic);
         }
         std::sort(all.begin(), all.end());

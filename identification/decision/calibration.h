@@ -65,6 +65,10 @@ constexpr double negligibleLogOdds = 8.0;
 /// Parameters drawn from a fit [prior standard deviations].
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);
 
+/// Parameters drawn from their priors [prior standard deviations], as the draws without an effect have them: data that
+/// move them far from there are a residual too (Box, J. R. Stat. Soc. A 143, 383 (1980)).
+Eigen::VectorXd fromPrior(const Study& study, std::mt19937_64& random);
+
 /// Amplitude drawn from a distribution and clipped to the effect's range; 1 for a switch.
 double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt19937_64& random);
 
@@ -115,7 +119,7 @@ Odds oddsOf(const Evidences& evidences, const Eigen::VectorXd& logPriors);
 /// Odds of all effects. \param without  an effect that is left out of the library
 Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without = static_cast<std::size_t>(-1));
 
-/// Which effects data with these numbers of repeats can show, from synthetic data.
+/// Which effects data with these numbers of repeats can show, from synthetic data whose parameters follow their priors.
 struct Visibility
 {
     // By effect:
@@ -127,6 +131,6 @@ struct Visibility
 };
 
 Visibility visibility(const Study& study, const Evidence& evidence, Replicas& replicas, const Calibration& calibration,
-    const Measured& measured, std::mt19937_64& random);
+    std::mt19937_64& random);
 
 } // namespace clepsydra::identification

@@ -34,11 +34,10 @@ double reached(const std::vector<std::pair<double, double>>& shares)
 } // namespace
 
 Visibility visibility(const Study& study, const Evidence& evidence, Replicas& replicas, const Calibration& calibration,
-    const Measured& measured, std::mt19937_64& random)
+    std::mt19937_64& random)
 {
     const Eigen::Index count = study.effects.size();
     Visibility found{Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count), {}};
-    const Fit null = evidence.fitNull(measured);
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
         std::vector<std::pair<double, double>> detected;
@@ -56,7 +55,7 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
             double right = 0.0;
             for (int draw = 0; draw < draws; ++draw)
             {
-                const auto [data, judge] = replicas.draw({{e, amplitude}}, null.parameters, random);
+                const auto [data, judge] = replicas.draw({{e, amplitude}}, fromPrior(study, random), random);
                 const Odds odds = oddsOf(study, judge(data));
                 if (!isDetected(study, calibration, odds))
                 {

@@ -35,6 +35,43 @@ double biasOfLog(double degreesOfFreedom)
     return digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
 }
 
+/// Sums of squares of deviations in units of the noise's variance, and their degrees of freedom, by feature.
+struct Squares
+{
+    Eigen::VectorXd sum;
+    Eigen::VectorXd freedom;
+};
+
+/// By the magnitude of the amplitude, to which the log of the factor on the standard deviation is proportional.
+using SquaresByAmplitude = std::map<double, Squares>;
+
+void add(SquaresByAmplitude& all, double amplitude, Eigen::Index features, const std::vector<Eigen::Index>& kept,
+    const Eigen::VectorXd& squares, double freedom)
+{
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(features);
+    Squares& here = all.try_emplace(std::abs(amplitude), Squares{none, none}).first->second;
+    here.sum(kept) += squares;
+    here.freedom(kept).array() += freedom;
+}
+
+/// Log of the factor at amplitude 1, the mean over the amplitudes with weights that are inverse to their variances, and
+/// its weight in degrees of freedom at amplitude 1.
+std::pair<double, double> logFactor(const SquaresByAmplitude& all, Eigen::Index feature)
+{
+    double sum = 0.0;
+    double weights = 0.0;
+    for (const auto& [amplitude, squares] : all)
+    {
+        if (const double freedom = squares.freedom(feature); freedom > 0.0)
+        {
+            const double weight = freedom * amplitude * amplitude;
+            sum += weight * 0.5 * (std::log(squares.sum(feature) / freedom) - biasOfLog(freedom)) / amplitude;
+            weights += weight;
+        }
+    }
+    return {sum / weights, weights};
+}
+
 } // namespace
 
 /// The noise of runs without effects is estimated first, because the effects that raise the scatter are found by
@@ -150,15 +187,17 @@ void Emulator::learnNoise(bool ofPlainRuns)
 /// Estimates how much each effect raises the scatter, from repeats of runs with that effect alone.
 void Emulator::learnScatter()
 {
+    const Eigen::Index features = study_->featureCount();
     for (std::size_t e = 0; e < study_->effects.size(); ++e)
     {
-        Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_->featureCount()); // in units of the noise's variance
-        Eigen::VectorXd freedom = squares;
-        std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // squares and degrees of freedom by condition
+        SquaresByAmplitude all;
+        std::map<std::size_t, SquaresByAmplitude> own; // by condition
+        double freedom = 0.0;
         double statistic = 0.0;
         double statisticFreedom = 0.0;
         for (const auto c : learnt_)
         {
+            conditions_[c]->logScatter.erase(e);
             const auto& kept = conditions_[c]->features;
             for (const auto& group : repeats(c))
             {
@@ -174,9 +213,9 @@ void Emulator::learnScatter()
                 const double nu = static_cast<double>(group.size()) - 1.0;
                 const Eigen::VectorXd ratio =
                     deviations.colwise().squaredNorm().transpose().cwiseQuotient(conditions_[c]->noise.diagonal());
-                squares(kept) += ratio;
-                freedom(kept).array() += nu;
-                own[c] = {ratio, nu};
+                add(all, setting.amplitudes(e), features, kept, ratio, nu);
+                add(own[c], setting.amplitudes(e), features, kept, ratio, nu);
+                freedom += nu;
                 statistic +=
                     conditions_[c]->root.triangularView<Eigen::Lower>().solve(deviations.transpose()).squaredNorm();
                 statisticFreedom += nu * static_cast<double>(kept.size());
@@ -187,25 +226,21 @@ void Emulator::learnScatter()
             continue;
         }
         // An F distribution, because the noise is an estimate too.
-        const double freedomOfNoise = std::max(1.0, degreesOfFreedom_ * statisticFreedom / freedom.maxCoeff());
+        const double freedomOfNoise = std::max(1.0, degreesOfFreedom_ * statisticFreedom / freedom);
         if (!study_->effects[e].raisesScatter
             && probabilityBeyondFisher(statistic / statisticFreedom, statisticFreedom, freedomOfNoise) > otherScatter)
         {
             continue;
         }
-        for (const auto& [c, ratioAndFreedom] : own)
+        for (const auto& [c, squares] : own)
         {
-            const auto& [ratio, nu] = ratioAndFreedom;
             const auto& kept = conditions_[c]->features;
-            Eigen::VectorXd logs(ratio.size());
-            for (Eigen::Index k = 0; k < ratio.size(); ++k)
-            {
-                const auto f = kept[k];
-                const double all = 0.5 * (std::log(squares(f) / freedom(f)) - biasOfLog(freedom(f)));
-                const double here = 0.5 * (std::log(ratio(k) / nu) - biasOfLog(nu));
-                logs(k) = all + (here - all) * nu / (nu + sharedScatter);
-            }
-            conditions_[c]->logScatter[e] = logs;
+            conditions_[c]->logScatter[e] = Eigen::VectorXd::NullaryExpr(
+                static_cast<Eigen::Index>(kept.size()), [&, &squares = squares](Eigen::Index k) {
+                    const double ofAll = logFactor(all, kept[k]).first;
+                    const auto [here, weight] = logFactor(squares, kept[k]);
+                    return ofAll + (here - ofAll) * weight / (weight + sharedScatter);
+                });
         }
     }
 }

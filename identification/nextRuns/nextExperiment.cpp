@@ -96,8 +96,10 @@ std::vector<NextExperiment> nextExperiments(
             const auto rows = featureRows(studySimulator.run(orders), condition, study.featureCount());
             const Eigen::VectorXd mean = meanFeatures(rows);
             // The spread contains the noise of the runs, which it must not fall below.
-            const Eigen::ArrayXd spread =
-                (rows.rowwise() - mean.transpose()).array().square().colwise().sum().transpose() / (draws - 1);
+            const Eigen::ArrayXXd squares = (rows.rowwise() - mean.transpose()).array().square();
+            const Eigen::ArrayXd freedom = squares.isFinite().cast<double>().colwise().sum().transpose() - 1.0;
+            const Eigen::ArrayXd spread = squares.isFinite().select(squares, 0.0).colwise().sum().transpose()
+                                          / freedom.max(1.0); // without failed runs
             const Eigen::ArrayXd noise = answer.layout.noise.diagonal().array();
             next.outcomes.push_back({name, std::exp(explanation.logOdds - left.front().logOdds) / sum, mean,
                 (noise + spread.max(answer.emulator->noise().diagonal().array()) + common).sqrt().matrix()});

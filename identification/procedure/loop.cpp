@@ -251,7 +251,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     Replicas replicas(emulator, layout, evidence, random);
     const Calibration calibration = calibrate(study, evidence, replicas, numbers, random);
     writePlan(study, emulator, layout, numbers, evidence, calibration,
-        visibility(study, evidence, replicas, calibration, numbers, random), out);
+        visibility(study, evidence, replicas, calibration, random), out);
 }
 
 void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress,

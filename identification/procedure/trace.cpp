@@ -302,7 +302,7 @@ private:
         {
             // A copy of the random generator, so that the visibility does not change the decision.
             std::mt19937_64 own = random_;
-            answer_.visibility = visibility(study_, evidence, replicas, calibration, measured, own);
+            answer_.visibility = visibility(study_, evidence, replicas, calibration, own);
         }
         append(answer_.remarks, answer_.emulator->remarks());
         if (!isDetected(study_, calibration, odds))

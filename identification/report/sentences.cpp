@@ -404,7 +404,10 @@ Json factsOf(const Findings& findings)
     }
     if (findings.heldOut != nullptr && !findings.heldOut->conditions.empty())
     {
-        facts["heldOut"] = heldOutFacts(findings);
+        const HeldOutResult& heldOut = *findings.heldOut;
+        const bool isCompared = std::isfinite(heldOut.before.rmsLogError.value);
+        facts[isCompared ? "heldOut" : "notCompared"] =
+            isCompared ? heldOutFacts(findings) : Json(joined(heldOut.notScored, ", "));
     }
     if (findings.next != nullptr && !findings.next->empty())
     {

@@ -35,6 +35,14 @@ constexpr std::ptrdiff_t linesOfLog = 12;
 /// With less free space on a disk than this, a file written there may be incomplete [bytes].
 constexpr std::uintmax_t leastRoom = 256 * 1024;
 
+/// Text in which bytes that are no UTF-8 are replaced: programs write what they like into their logs.
+std::string asUtf8(const std::string& text)
+{
+    using nlohmann::json;
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+/// The last lines of a log.
 std::string endOfLog(const fs::path& file)
 {
     std::ifstream lines(file);
@@ -44,7 +52,7 @@ std::string endOfLog(const fs::path& file)
         last.push_back("\n    " + line);
         last.erase(last.begin(), last.end() - std::min<std::ptrdiff_t>(last.size(), linesOfLog));
     }
-    return std::accumulate(last.begin(), last.end(), std::string());
+    return asUtf8(std::accumulate(last.begin(), last.end(), std::string()));
 }
 
 /// Whether a file of the case is a result of an earlier run. Time directories after the start count as results, because
@@ -72,6 +80,10 @@ std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
     for (const auto& path : names)
     {
         all += path.filename().string() + ' ' + sha256OfPath(path, "polyMesh") + '\n';
+    }
+    if (study.simulator.entriesFile != SimulatorSpecification().entriesFile)
+    {
+        all += study.simulator.entriesFile + '\n';
     }
     for (const auto& path : study.simulator.dependsOn)
     {
@@ -238,8 +250,9 @@ std::optional<RunResult> CaseSimulator::load(const RunOrder& order)
     const auto failures = record.value("failures", nlohmann::json::object());
     if (failures.contains(order.file))
     {
-        // A failed run is repeated. With a budget of 0 nothing may run, and the stored failure is reported.
-        if (study_.settings.budget > 0)
+        // A run that has failed in an earlier call of the program is repeated. With a budget of 0 nothing may run, and
+        // the stored failure is reported.
+        if (study_.settings.budget > 0 && madeNow_.count(stored) == 0)
         {
             return std::nullopt;
         }
@@ -403,6 +416,7 @@ std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
         }
         store(order, failures, folder, end.seconds);
         std::string failure;
+        madeNow_.insert(cache_ / keyOf(order));
         for (const auto place : places)
         {
             RunResult& result = results[place];

@@ -53,6 +53,7 @@ private:
     std::string fingerprint_; // hash of the case's files, of its dependencies and of its version
     std::ostream& progress_;
     std::set<std::filesystem::path> damaged_; // damaged runs that have been reported
+    std::set<std::filesystem::path> madeNow_; // by this program, which does not repeat those that have failed
 };
 
 /// Seconds as hours, minutes and seconds: "00:03:48".

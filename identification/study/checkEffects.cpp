@@ -83,8 +83,7 @@ void checkFormulas(const YamlPlace& root, const Study& study)
         all.insert(condition.entries.begin(), condition.entries.end());
     }
     const auto check = [&](const std::string& where, const std::map<std::string, Expression>& formulas,
-                           const std::string& variable, double value) {
-        auto variables = numbersOf(all);
+                           Expression::Variables variables, const std::string& variable, double value) {
         variables[variable] = value;
         for (const auto& [entry, formula] : formulas)
         {
@@ -100,16 +99,16 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     };
     for (const auto& parameter : study.parameters)
     {
-        check("parameter '" + parameter.name + "'", parameter.entries, parameter.name, parameter.mean);
+        check("parameter '" + parameter.name + "'", parameter.entries, numbersOf(all), parameter.name, parameter.mean);
     }
     for (const auto& effect : study.effects)
     {
-        auto formulas = effect.entries;
+        check("effect '" + effect.name + "'", effect.entries, numbersOf(all), "a", effect.bounds.upper);
         if (effect.chainSize)
         {
-            formulas.emplace(effect.chainOperation, *effect.chainSize);
+            check("effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, {}, "a",
+                effect.bounds.upper);
         }
-        check("effect '" + effect.name + "'", formulas, "a", effect.bounds.upper);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "study/readStudy.h"
 
+#include "curves/table.h"
 #include "study/readValues.h"
 #include "study/units.h"
 #include "tokens/didYouMean.h"
@@ -71,12 +72,28 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     number.feature = indexOf(place.at("feature"), study.features);
     std::tie(number.unit, number.siUnits) = readUnit(place.at("unit"));
     const bool isLog = study.features[number.feature].kind->isLog();
-    for (const auto& value : place.at("values").oneOrMore())
+    const Dimension dimension = study.features[number.feature].kind->dimension;
+    const std::string quantity = quantityOf(number.unit);
+    const bool isRate = quantity == "speed" || quantity.find("rate") != std::string::npos;
+    const bool isRight = dimension == Dimension::time    ? quantity == "time"
+                         : dimension == Dimension::share ? quantity == "share"
+                         : dimension == Dimension::rate  ? isRate
+                                                         : quantity != "time";
+    place.at("unit").failIf(!isRight, "'" + number.unit + "' is no unit of " + study.features[number.feature].kind->name
+                                          + "; allowed are units of "
+                                          + (dimension == Dimension::time     ? "time, as s"
+                                              : dimension == Dimension::share ? "a share, as 1 or %"
+                                              : dimension == Dimension::rate  ? "a rate, as g/s or m/s"
+                                                                              : "the observable, as g or m/s"));
+    const auto values = place.at("values").oneOrMore();
+    place.at("values").failIf(values.empty(), "needs at least one number");
+    for (const auto& value : values)
     {
         number.values.push_back(isLog ? std::log(value.positive() * number.siUnits) : value.number() * number.siUnits);
     }
     number.standardError =
         isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0) * number.siUnits;
+    place.failIf(number.standardError < 0.0, "has an error below 0");
     place.failIf(place.has(isLog ? "standardError" : "relativeError"),
         isLog ? "the feature is a logarithm; its error must be given as relativeError"
               : "the feature is no logarithm; its error must be given as standardError");
@@ -146,6 +163,8 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     condition.file = place.textOr("file", root.at("observable").at("file").text());
     condition.cost = place.positiveOr("cost", 1.0);
     condition.entries = readValues(place.optional("set"), study.simulator);
+    place.optional("set").failIf(study.simulator.scatters() && condition.entries.count(study.simulator.seedEntry) > 0,
+        "sets '" + study.simulator.seedEntry + "', the seed, which differs from run to run; allowed are other entries");
     condition.observable = readScale(root, place, study.simulator, condition);
     for (const auto& [tag, value] : place.optional("tags").map())
     {
@@ -169,14 +188,26 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
 void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
 {
     std::map<std::tuple<std::filesystem::path, std::string, double>, std::string> owners;
+    // A column may be given by its name or its number.
+    const auto columnIn = [](const std::filesystem::path& file, const std::string& column) {
+        try
+        {
+            return std::to_string(readTable(file).index(column));
+        }
+        catch (const std::runtime_error&)
+        {
+            return column; // the measurement itself is read later, with an error that says more
+        }
+    };
     for (std::size_t c = 0; c < study.conditions.size(); ++c)
     {
         const auto& [name, measured] = std::tie(study.conditions[c].name, study.conditions[c].measured);
         for (const auto& file : measured.files)
         {
             // Parts of one record are distinguished by the valid times.
-            const auto [owner, isNew] = owners.emplace(
-                std::tuple(std::filesystem::canonical(file), measured.value.column, measured.time.lowest), name);
+            const auto [owner, isNew] = owners.emplace(std::tuple(std::filesystem::canonical(file),
+                                                           columnIn(file, measured.value.column), measured.time.lowest),
+                name);
             const YamlPlace place = root.at("conditions").list()[c].at("measured").at("files");
             place.failIf(!isNew, "condition '" + name + "' has " + file.string() + " with its column "
                                      + measured.value.column + ", which condition '" + owner->second
@@ -193,10 +224,12 @@ void requireEqualCoordinates(const YamlPlace& root, const Study& study)
     for (const auto& condition : study.conditions)
     {
         const auto names = namesOf(condition.coordinates);
-        if (!names.empty() && names != namesOf(first->coordinates))
+        const bool mayLack = first == study.conditions.end() || condition.role == Role::candidate;
+        if (names.empty() ? !mayLack : names != namesOf(first->coordinates))
         {
             root.at("conditions")
-                .fail("condition '" + condition.name + "' has the coordinates " + listed(names) + ", condition '"
+                .fail("condition '" + condition.name + "' has "
+                      + (names.empty() ? "no coordinates" : "the coordinates ") + listed(names) + ", condition '"
                       + first->name + "' " + listed(namesOf(first->coordinates))
                       + "; all conditions must have the same coordinates");
         }
@@ -216,6 +249,7 @@ void readObservable(const YamlPlace& place, Study& study)
     const auto features = place.at("features").list();
     study.modelError = Eigen::VectorXd::NullaryExpr(study.featureCount(),
         [&](Eigen::Index f) { return features[f].numberOr("modelError", place.numberOr("modelError", 0.0)); });
+    place.failIf((study.modelError.array() < 0.0).any(), "has a modelError below 0");
 }
 
 void readConditions(const YamlPlace& root, Study& study)

@@ -50,6 +50,10 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
         requireEntry(value, entry, simulator);
         parameter.entries.emplace(entry, readFormula(value));
     }
+    place.at("set").failIf(std::none_of(parameter.entries.begin(), parameter.entries.end(),
+                               [&](const auto& entry) { return entry.second.holds(parameter.name); }),
+        "no formula of parameter '" + parameter.name + "' contains it; allowed is \"entry: " + parameter.name
+            + "\" or a formula with " + parameter.name);
     const YamlPlace prior = place.at("prior");
     prior.allow({"mean", "sd", "from"});
     parameter.mean = prior.at("mean").number();
@@ -66,33 +70,54 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
     return parameter;
 }
 
-/// What an effect changes at amplitude 0, where it must be absent; empty if it changes nothing there.
-/// \param atZero  variables of formulas at amplitude 0, by condition
-std::string changedAtZero(
-    const YamlPlace& place, const Effect& effect, const Study& study, const std::vector<Expression::Variables>& atZero)
+/// Why an effect is not absent at amplitude 0, or never present; empty if it is as it must be.
+/// \param entries  of the case, by condition
+std::string objectionTo(
+    const YamlPlace& place, const Effect& effect, const Study& study, const std::vector<Entries>& entries)
 {
-    for (std::size_t c = 0; c < atZero.size(); ++c)
+    if (effect.chainSize)
     {
-        const auto& numbers = atZero[c];
+        const double value = valueOf(place.at("chain"), *effect.chainSize, {{"a", 0.0}});
+        return isUnchanged(value, 0.0) ? "" : "the size in 'chain' is " + textOf(value) + " at a = 0, not 0";
+    }
+    bool changes = !effect.isSwitch;
+    bool isIdle = true;
+    for (std::size_t c = 0; c < entries.size(); ++c)
+    {
+        if (!acts(effect, study.conditions[c]))
+        {
+            continue;
+        }
+        isIdle = false;
+        changes = changes || std::any_of(effect.textEntries.begin(), effect.textEntries.end(), [&](const auto& own) {
+            return entries[c].at(own.first) != own.second;
+        });
+        auto numbers = numbersOf(entries[c]);
+        numbers["a"] = 0.0;
         for (const auto& [entry, formula] : effect.entries)
         {
             const auto own = numbers.find(entry);
-            if (acts(effect, study.conditions[c]) && formula.holds("a") && own != numbers.end())
+            if (!formula.holds("a"))
             {
-                const double value = valueOf(place.at("set").at(entry), formula, numbers);
-                if (!isUnchanged(value, own->second))
-                {
-                    return entry + " is " + textOf(own->second) + " in the case, but " + textOf(value) + " at a = 0";
-                }
+                continue; // a setting that the effect needs, as a shorter step
+            }
+            if (own == numbers.end())
+            {
+                return entry + " is '" + entries[c].at(entry) + "' in the case, which is no number for a formula";
+            }
+            const double value = valueOf(place.at("set").at(entry), formula, numbers);
+            if (!isUnchanged(value, own->second))
+            {
+                return entry + " is " + textOf(own->second) + " in the case, but " + textOf(value) + " at a = 0";
             }
         }
     }
-    return "";
+    return changes || isIdle ? "" : "the case has these values already";
 }
 
 /// Reads the effects of the libraries and of the study. The study's own effects replace those of the same name. A
-/// library serves many cases: effects that this case has no entries for, or whose formulas start from other values than
-/// the case's, are left out, and the report lists them.
+/// library serves many cases: effects that this case has no entries for, whose formulas start from other values than
+/// the case's, or that the case has already, are left out, and the report lists them.
 void readAllEffects(const YamlPlace& root, Study& study)
 {
     std::vector<Effect>& all = study.effects;
@@ -101,13 +126,11 @@ void readAllEffects(const YamlPlace& root, Study& study)
         const std::size_t same = std::find(names.begin(), names.end(), effect.name) - names.begin();
         all.resize(std::max(all.size(), same + 1));
         all[same] = effect;
+        eraseIf(study.leftOut, [&](const std::string& text) { return text.rfind(effect.name + " (", 0) == 0; });
     };
     const Entries known = ownEntries(study.simulator);
-    const auto atZero = mapped(study.conditions, [&](const Condition& condition) {
-        auto numbers = numbersOf(plainEntries(study.simulator, condition));
-        numbers["a"] = 0.0;
-        return numbers;
-    });
+    const auto entries =
+        mapped(study.conditions, [&](const Condition& condition) { return plainEntries(study.simulator, condition); });
     for (const auto& file : root.optional("effectsFrom").oneOrMore())
     {
         const auto library = YamlPlace::fileAt(file.path());
@@ -117,7 +140,7 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             const auto missing = missingEntries(offered[i], known);
             const std::string reason = missing.empty()
-                                           ? changedAtZero(library.at("effects").list()[i], offered[i], study, atZero)
+                                           ? objectionTo(library.at("effects").list()[i], offered[i], study, entries)
                                            : "the case has no entry " + listed(missing);
             if (reason.empty())
             {
@@ -137,16 +160,25 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             requireEntry(place.at("set").at(entry), entry, study.simulator);
         }
-        const std::string changed = changedAtZero(place, own[i], study, atZero);
-        place.failIf(!changed.empty(), "effect '" + own[i].name + "': " + changed
-                                           + ", where an effect must be absent; allowed is a formula such as "
-                                             "\"entry*(1 + 0.1*a)\" or \"entry + 0.1*a\"");
+        const std::string objection = objectionTo(place, own[i], study, entries);
+        place.failIf(
+            !objection.empty(), "effect '" + own[i].name + "': " + objection
+                                    + "; allowed is an effect that is absent at amplitude 0, with a formula such "
+                                      "as \"entry*(1 + 0.1*a)\", \"entry + 0.1*a\" or, in 'chain', \"0.1*a\", "
+                                      "or a switch to another value than the case's");
     }
     std::for_each(own.begin(), own.end(), add);
     for (const std::string key : {"onlyEffects", "withoutEffects"})
     {
-        const auto names = mapped(
-            root.optional(key).oneOrMore(), [&](const YamlPlace& name) { return name.oneOf(namesOfItems(all)); });
+        auto mayBeNamed = namesOfItems(all);
+        if (key == "withoutEffects")
+        {
+            // Those that this case has already may be named as well.
+            append(mayBeNamed,
+                mapped(study.leftOut, [](const std::string& text) { return text.substr(0, text.find(" (")); }));
+        }
+        const auto names =
+            mapped(root.optional(key).oneOrMore(), [&](const YamlPlace& name) { return name.oneOf(mayBeNamed); });
         eraseIf(all, [&](const Effect& effect) {
             return root.has(key) && contains(names, effect.name) == (key == "withoutEffects");
         });

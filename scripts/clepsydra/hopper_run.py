@@ -127,10 +127,10 @@ class Step:
         last = lines[-1].split() if lines else []
         return last if len(last) > 2 and last[0][:1].isdigit() else []
 
-    def last_checkpoint(self) -> str:
-        """The time of the last whole checkpoint; empty before there is one."""
+    def checkpoints(self) -> list[str]:
+        """The times of the whole checkpoints, the last one at the end."""
         found = [marker.parent.name for marker in (self.folder / "checkpoints").glob("*/complete")]
-        return max(found, key=float, default="")
+        return sorted(found, key=float)
 
     def write_ranks(self, ranks: int) -> None:
         """Splits mesh and particles into boxes side by side, one for each rank; none above another.
@@ -147,7 +147,9 @@ class Step:
         unfinished.rename(path)
 
     def redistribute(self, ranks: int) -> None:
-        """Brings fields and mesh of the last checkpoint from the ranks of the last start onto those of the next."""
+        """Brings fields and mesh of the last checkpoint from the ranks of the last start onto those of the next. Fields
+        of earlier times, which decomposePar would remove with the folders of the old ranks, are put together as well.
+        """
         note = self.folder / "ranksOnDisk"
         said = note.read_text().strip() if note.is_file() else "1"
         if not re.fullmatch("[1-9][0-9]*", said):
@@ -155,12 +157,13 @@ class Step:
         before = int(said)
         if before == ranks:
             return
-        start = self.last_checkpoint()
-        if before != 1 and start:
-            run_logged(self.folder, "reconstructPar", "-time", start)
+        times = self.checkpoints()
+        if before != 1 and times:
+            split = [time for time in times[:-1] if not (self.folder / time).is_dir()] + times[-1:]
+            run_logged(self.folder, "reconstructPar", "-time", ",".join(split))
         self._note_ranks(1)
         if ranks != 1:
-            run_logged(self.folder, "decomposePar", "-force", "-time", start or "0")
+            run_logged(self.folder, "decomposePar", "-force", "-time", times[-1] if times else "0")
         self._note_ranks(ranks)
 
     def _note_ranks(self, ranks: int) -> None:

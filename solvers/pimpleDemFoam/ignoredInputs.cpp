@@ -2,6 +2,7 @@
 
 #include "tokens/renamed.h"
 
+#include "IOdictionary.H"
 #include "Time.H"
 
 namespace clepsydra
@@ -20,6 +21,30 @@ void refuseRenamedFunctionObjects(const Time& time)
                 << "Function object '" << item.keyword() << "' has the type '" << type << "', which is now called '"
                 << change->newName.c_str() << "'" << exit(FatalIOError);
         }
+    }
+}
+
+void refuseUnsupported(const fvMesh& mesh)
+{
+    const IOdictionary zones(
+        IOobject("MRFProperties", mesh.time().constant(), mesh, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false));
+    for (const entry& item : zones)
+    {
+        if (item.isDict() && item.dict().getOrDefault<bool>("active", true))
+        {
+            FatalIOErrorInFunction(item.dict())
+                << "The rotating zone '" << item.keyword()
+                << "' (MRF) would have no effect, because this solver has no "
+                << "rotating frames; allowed: active no;, a moving mesh (constant/dynamicMeshDict), or no such file"
+                << exit(FatalIOError);
+        }
+    }
+    const dictionary& pimple = mesh.solutionDict().subOrEmptyDict("PIMPLE");
+    if (pimple.getOrDefault<bool>("consistent", false))
+    {
+        FatalIOErrorInFunction(pimple)
+            << "'consistent' (SIMPLEC) has no effect in this solver; allowed: no, or no such entry"
+            << exit(FatalIOError);
     }
 }
 

@@ -230,6 +230,7 @@ int main(int argc, char* argv[])
     fluidMesh.requireCaseForMotion(settings, fluid);
     if (settings.hasFluid())
     {
+        refuseUnsupported(mesh);
         checkScalarTransport(mesh);
     }
     else

@@ -1,5 +1,7 @@
 #include "turbulence.h"
 
+#include "knownEntries.h"
+#include "openfoam/compatibility.h"
 #include "runTimeSelection.h"
 
 #include "IOdictionary.H"
@@ -74,12 +76,14 @@ NewFluidTurbulence* functionOfLibrary()
 
 std::string readTurbulence(const Time& time)
 {
-    const IOdictionary dict(
-        IOobject("turbulenceProperties", time.constant(), time, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false));
-    if (!dict.found("simulationType"))
+    const IOobject file(
+        "turbulenceProperties", time.constant(), time, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false);
+    if (clepsydra::typeFilePath<IOdictionary>(file).empty())
     {
         return {};
     }
+    const IOdictionary dict(file);
+    requireKnownEntries(dict, {"simulationType"}, {"laminar", "RAS", "LES"});
     const word type = selectedModel(dict, "simulationType", simulationTypes.names());
     if (type == "laminar")
     {

@@ -523,6 +523,85 @@ TEST(EditedTimeStep, DoesNotPartClockAndParticles)
     EXPECT_EQ(massRows(test).size(), 501u);
 }
 
+namespace
+{
+
+/// A particle that falls in water, for a few steps.
+void fallingParticle(TestCase& test, double endTime)
+{
+    test.cells = {4, 4, 8};
+    test.dem.particles = {{0.0101, 0.0099, 0.02}};
+    test.setTimes(endTime, interval, 0.005);
+    test.control().set("startFrom", "latestTime");
+}
+
+} // namespace
+
+// A case without dumps has no file that its resumed run must continue but LIGGGHTS' log, of which it keeps all. It began
+// the log again.
+TEST(Log, IsContinued)
+{
+    TestCase test;
+    fallingParticle(test, 0.005);
+    ASSERT_TRUE(test.run().succeeded());
+    const Outcome second = test.runCommand("cp log.liggghts first && echo 'endTime 0.01;' >> system/controlDict && "
+                                           "$SOLVER && head -c $(stat -c %s first) log.liggghts | cmp - first && "
+                                           "[ $(stat -c %s log.liggghts) -gt $(stat -c %s first) ]");
+    EXPECT_TRUE(second.succeeded()) << second.output;
+}
+
+// A later time that is no whole checkpoint is set aside under a name that is free. It replaced what had that name.
+TEST(SetAside, ReplacesNothing)
+{
+    TestCase test;
+    fallingParticle(test, 0.005);
+    ASSERT_TRUE(test.run().succeeded());
+    const Outcome second =
+        test.runCommand("mkdir 0.007 unfinished.0.007 && touch 0.007/later unfinished.0.007/earlier && "
+                        "echo 'endTime 0.01;' >> system/controlDict && $SOLVER && "
+                        "ls unfinished.0.007/earlier unfinished.0.007-2/later");
+    EXPECT_TRUE(second.succeeded()) << second.output;
+    EXPECT_TRUE(second.says("Setting aside time 0.007")) << second.output;
+}
+
+// A checkpoint without the memory of a force that the resumed run would have ends it with the names of the entries.
+// LIGGGHTS' own message names neither.
+TEST(OtherForces, AreAnErrorOfAResumedRun)
+{
+    TestCase test;
+    fallingParticle(test, 0.005);
+    ASSERT_TRUE(test.run().succeeded());
+    test.coupling().set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce historyForce)");
+    test.control().set("endTime", "0.01");
+    test.write();
+    const Outcome outcome = test.runCommand("$SOLVER");
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_TRUE(outcome.says("'historyForce' or 'turbulentDispersion' was added or removed")) << outcome.output;
+    EXPECT_TRUE(outcome.says("allowed:")) << outcome.output;
+}
+
+// Another case takes the particles of a coupled run at rest, without gravity: nothing moves the fluid. The impulse that
+// the fluid of the first case was still to receive would, and would come from nowhere.
+TEST(ParticlesOfAnotherRun, BringNoMomentum)
+{
+    TestCase first;
+    fallingParticle(first, 0.01);
+    first.coupling().set("DEM/writeRestart", "\"particle.restart\"");
+    ASSERT_TRUE(first.run().succeeded());
+
+    TestCase second;
+    fallingParticle(second, 0.005);
+    second.dem.particles.clear();
+    second.dem.readRestart = (first.path() / "particle.restart").string();
+    second.dem.gravity = 0;
+    second.file("constant/g").set("value", "(0 0 0)");
+    second.dem.more = "velocity all set 0 0 0\n";
+    const Outcome outcome = second.run();
+    ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_EQ(second.conservationSummary()["particlesEnd"], 1);
+    EXPECT_LT(second.field("U", "0.005").cwiseAbs().maxCoeff(), 1e-12);
+}
+
 // A run that is stopped after it has inserted all its particles goes on as if never stopped. LIGGGHTS takes the finished
 // insertion for one that is late, and ends the run at its next checkpoint.
 TEST(Inserted, ParticlesAreNotInsertedAgain)

@@ -317,6 +317,37 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
     EXPECT_EQ(emulator[0]->logScatter.count(0), 0U);
 }
 
+/// Repeats at half the amplitude have the square root of the factor, and several groups of repeats in one condition count
+/// together. Taking each group for one at amplitude 1 gives half the logarithm here.
+TEST(Emulator, ScatterGrowsWithTheAmplitude)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "seed");
+    study.effects[1].raisesScatter = true;
+    LinearSimulator simulator;
+    const StudySimulator studySimulator(study, simulator);
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    std::vector<Simulation> runs;
+    const auto add = [&](double amplitude) {
+        Simulation run;
+        run.setting = studySimulator.plainSetting();
+        run.setting.amplitudes(1) = amplitude;
+        run.features = Eigen::VectorXd::Constant(1, 0.1 * std::exp(1.2 * amplitude) * normal(random));
+        run.plain.time = {0, 1};
+        run.plain.value = {1, 0};
+        runs.push_back(run);
+    };
+    for (int repeat = 0; repeat < 200; ++repeat)
+    {
+        add(0.0);
+        add(0.5);
+        add(0.25);
+    }
+    const Emulator emulator(study, studySimulator, runs, allFeatures(study));
+    EXPECT_NEAR(emulator[0]->logScatter.at(1)(0), 1.2, 0.3);
+}
+
 /// ln W = 3 x + ...: an error of 0.01 in x gives 0.03, a gain of 2 % gives 0.02, and errors of features are taken as
 /// stated. An effect that was measured to a tenth of its size is an error of a tenth.
 TEST(CommonErrors, SlopesAreThoseOfTheSimulator)

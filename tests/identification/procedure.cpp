@@ -151,9 +151,8 @@ TEST(Trace, AChiSquareBeyondNoiseIsAResidual)
             odds.chanceOfChiSquare = 1e-274;
             EXPECT_EQ(calibration.pValue(odds), leastPValue);
             std::mt19937_64 random(1);
-            const Measured measured = arrange(study, emulator, data).second;
             Replicas replicas(emulator, layout, evidence, random);
-            const Visibility seen = visibility(study, evidence, replicas, calibration, measured, random);
+            const Visibility seen = visibility(study, evidence, replicas, calibration, random);
             EXPECT_LT(seen.detected(static_cast<Eigen::Index>(effectOf(study, "y"))), 1);
         }
         else

@@ -706,7 +706,8 @@ TEST(Runner, FailuresCacheAndSlurm)
         failing.entries["failWithSeed"] = "10009";
         const auto failed = simulator.run({failing});
         EXPECT_THAT(failed[0].failure, HasSubstr("asked to fail with seed 10009"));
-        EXPECT_EQ(simulator.missing({failing}), 1) << "a failure is not a result";
+        EXPECT_EQ(simulator.missing({failing}), 0) << "what has failed would fail again";
+        EXPECT_EQ(CaseSimulator(study, progress).missing({failing}), 1) << "in another call, a failure is not a result";
         Study reported = study;
         reported.settings.budget = 0;
         CaseSimulator reports(reported, progress);
@@ -718,6 +719,8 @@ TEST(Runner, FailuresCacheAndSlurm)
         // As a case does that begins with its Allclean.
         strange.command = "rm -f log.*; echo 'the valve is stuck'; exit 3";
         EXPECT_THAT(simulator.run({strange})[0].failure, HasSubstr("the valve is stuck"));
+        strange.command = "printf 'caf\\351 is Latin 1\\n'; exit 3";
+        EXPECT_THAT(simulator.run({strange})[0].failure, HasSubstr("is Latin 1")) << "the record is UTF-8";
     }
     // Results of an earlier run of the case, as fields of a later time and checkpoints, are not copied: a run would
     // resume from them.

@@ -258,6 +258,22 @@ TEST(Sentence, SaysWhatWasFound)
         "2.1 %.");
 }
 
+/// Held-out data of which no feature was reached are no test, and no "complete".
+TEST(Sentence, SaysThatNothingCouldBeCompared)
+{
+    Bench bench;
+    bench.found(Decision::named, {{1, 0.5}});
+    bench.heldOutErrors(std::nan(""), std::nan(""));
+    bench.heldOut.notScored = {"no measurement of rate in wet"};
+    const Sentences sentences = sentencesOf(bench.findings);
+    EXPECT_THAT(sentences.summary, Not(HasSubstr("held-out")));
+    EXPECT_THAT(sentences.details,
+        testing::Contains(
+            "No held-out measurement could be compared, so the prediction has not been tested: no measurement "
+            "of rate in wet."));
+    EXPECT_THAT(sentences.details, Not(testing::Contains(HasSubstr("omplete"))));
+}
+
 TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)
 {
     for (const auto& [after, says] :
@@ -366,7 +382,7 @@ TEST(Sentence, OfASingleMemberKeepsTheDoubt)
     bench.answer.otherThreshold = 0.4;
     EXPECT_THAT(sentencesOf(bench.findings).details,
         Contains(EndsWith("does not list 30 %, which stays a candidate because no name can be given.")));
-    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("causes are 2.1, and a name needs 3.5")));
+    EXPECT_THAT(sentencesOf(bench.findings).details, Contains(HasSubstr("causes are 2.13, and a name needs 3.46")));
     EXPECT_THAT(sentencesOf(bench.findings).summary,
         StartsWith("The residual has one of these causes: water that moves along with a particle (y 0.020), or a cause "
                    "that"));

@@ -227,7 +227,7 @@ effects:
 
 Study studyOf(const TemporaryFolder& folder, const std::string& text)
 {
-    folder.write("case/parameters", "friction 0.15;\nwall 0.3;\nparticleDiameter 2e-3;\nseed 1;\n");
+    folder.write("case/parameters", "friction 0.15;\nwall 0.3;\nparticleDiameter 2e-3;\nseed 1;\nlift off;\n");
     return readStudy(folder.write("study.yaml", text));
 }
 
@@ -350,6 +350,29 @@ TEST(StudyFile, MistakesNameTheirLine)
             "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: g/s }, "
             "{ feature: logMeanRate, values: [2], unit: g/s } ] }",
             "study.yaml:9:", "feature: given twice"},
+        {"friction + rough", "friction", "study.yaml:11:", "no formula of parameter 'rough' contains it"},
+        {"set: { friction: 0.2 }", "set: { seed: 3 }", "study.yaml:9:", "the seed"},
+        {"set: { particleDiameter: \"particleDiameter*(1 + a)\" }", "chain: { gain: 1 + 0.05*a }",
+            "study.yaml:13:", "the size in 'chain' is 1 at a = 0"},
+        {"set: { particleDiameter: \"particleDiameter*(1 + a)\" }", "chain: { gain: wall*a }",
+            "study.yaml:13:", "unknown name 'wall'"},
+        {"set: { particleDiameter: \"particleDiameter*(1 + a)\" }, amplitude: [-1, 1]",
+            "set: { wall: 0.3 }, switch: true", "study.yaml:13:", "the case has these values already"},
+        {"particleDiameter: \"particleDiameter*(1 + a)\"", "lift: \"1 + a\"",
+            "study.yaml:13:", "lift is 'off' in the case"},
+        {"role: training", "role: training, measured: { numbers: [ { feature: logMeanRate, values: [], unit: g/s } ] }",
+            "study.yaml:9:", "at least one number"},
+        {"role: training", "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: s } ] }",
+            "study.yaml:9:", "no unit of logMeanRate; allowed are units of a rate"},
+        {"role: training",
+            "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: g/s, "
+            "relativeError: -0.1 } ] }",
+            "study.yaml:9:", "error below 0"},
+        {"value: mass", "value: mass\n  modelError: -0.1", "study.yaml:4:", "modelError below 0"},
+        {"conditions:\n",
+            "conditions:\n  - { name: a, role: training, coordinates: { d: 1 } }\n"
+            "  - { name: b, role: heldOut }\n",
+            "study.yaml:9:", "condition 'b' has no coordinates"},
         {"conditions:\n",
             "conditions:\n  - { name: a, role: training, coordinates: { d: 1 } }\n"
             "  - { name: b, role: heldOut, coordinates: { D: 2 } }\n",
@@ -400,7 +423,7 @@ TEST(StudyFile, MeasurementsGivenTwice)
     };
     for (const auto& [files, heldOut] :
         std::map<std::string, std::string>{{"a.csv, ./a.csv", ", value: { column: n, unit: g }"},
-            {"../" + folder.path().filename().string() + "/a.csv", ""}})
+            {"../" + folder.path().filename().string() + "/a.csv", ""}, {"a.csv", ", value: { column: 2, unit: g }"}})
     {
         try
         {
@@ -540,11 +563,15 @@ TEST(StudyFile, LibraryEffectsThatDoNotSuitTheCaseAreLeftOut)
     const TemporaryFolder folder;
     folder.write("library.yaml", "effects:\n  - { name: roll, set: { rolling: rolling + a } }\n  - { name: rub, set: { "
                                  "friction: friction + a } }\n"
-                                 "  - { name: rubber, set: { wall: 0.3*a } }\n");
+                                 "  - { name: rubber, set: { wall: 0.3*a } }\n"
+                                 "  - { name: noLift, switch: true, set: { lift: off } }\n"
+                                 "  - { name: size, set: { particleDiameter: 0.1*a } }\n");
     const Study study = studyOf(folder, goodStudy + "effectsFrom: library.yaml\n");
     EXPECT_EQ(namesOfItems(study.effects), (std::vector<std::string>{"rub", "size"}));
-    EXPECT_EQ(study.leftOut, (std::vector<std::string>{"roll (the case has no entry rolling)",
-                                 "rubber (wall is 0.3 in the case, but 0 at a = 0)"}));
+    EXPECT_EQ(study.leftOut,
+        (std::vector<std::string>{"roll (the case has no entry rolling)",
+            "rubber (wall is 0.3 in the case, but 0 at a = 0)", "noLift (the case has these values already)"}))
+        << "the study's own 'size' is there";
 }
 
 /// Effects of the water are left out of a study of dry conditions, with their parameters; the other effects keep
@@ -553,8 +580,8 @@ TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
 {
     const TemporaryFolder folder;
     const auto partOf = [](const std::string& effect) {
-        return "  - { name: " + effect + "Part, of: " + effect
-               + ", set: { friction: friction }, prior: { mean: 0, sd: 1, from: measured }, range: [-9, 9] }\n";
+        return "  - { name: " + effect + "Part, of: " + effect + ", set: { friction: friction + " + effect
+               + "Part }, prior: { mean: 0, sd: 1, from: measured }, range: [-9, 9] }\n";
     };
     const Study study = studyOf(folder,
         replaced(replaced(goodStudy, "effects:\n",

@@ -93,6 +93,26 @@ TEST(HistoryForce, BeginsWithTheMotionThatItFinds)
     EXPECT_LT(test.accelerationOf(0).x(), -1);
 }
 
+/// A particle that is inserted, or comes back, has no fluid around it at first, and then finds one that flows: it has no
+/// history with that either. If the still fluid that an empty state holds counted, the first step in the flow would be a
+/// jump of its whole velocity.
+TEST(HistoryForce, BeginsWhereAParticleEntersTheFluid)
+{
+    ForcesOnParticles test("forceModels (historyForce);", {fluidDensity, viscosity, Vector3d::Zero()});
+    addParticle(test, 2500);
+    for (int times = 0; times < 2; ++times)
+    {
+        test.fluidAt(0) = FluidAtParticle();
+        test.fluidAt(0).submergedFraction = 0;
+        test.engine().advance(3);
+        test.fluidAt(0).submergedFraction = 1;
+        test.fluidAt(0).velocity = {-0.1, 0, 0};
+        EXPECT_EQ(test.accelerationOf(0), Vector3d(0, 0, 0));
+        test.fluidAt(0).velocity = {0.1, 0, 0};
+        EXPECT_GT(test.accelerationOf(0).x(), 1) << "in the fluid, a jump counts";
+    }
+}
+
 /// The reaction to a past jump fades as tau^-1/2 with Basset's law, and 19 times faster by 20 tau_M with Mei & Adrian's:
 /// (1 + 20^.75)^2 = 109 over what the particle's own slowing takes.
 TEST(HistoryForce, FadesFasterWithMeiAndAdriansLaw)

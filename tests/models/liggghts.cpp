@@ -740,7 +740,7 @@ Eigen::MatrixXd funnel(const FunnelRun& run, const std::function<void(LiggghtsPr
     }
     LiggghtsParticles particles(program);
     particles.requestState(numbersOf(CouplingState()));
-    particles.addProperties();
+    particles.addProperties(false);
     program.execute("run " + std::to_string(run.steps), "test");
     const ParticlesView view = particles.view();
     Eigen::MatrixXd state = Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(dem.particles.size()));

@@ -864,6 +864,62 @@ TEST(BadInput, SizesAndFilesThatNobodyReads)
         {"0/voidfraction", "did you mean 'voidFraction'?", "allowed:"}, SeenBy::engine);
 }
 
+/// What pimpleFoam does and this solver does not: refused, where the program ran without it.
+TEST(BadInput, OfPimpleFoamOnly)
+{
+    expectRefused([](TestCase& test) { test.file("constant/MRFProperties").set("rotor/omega", "100"); },
+        {"MRFProperties", "'rotor'", "would have no effect", "active no", "dynamicMeshDict"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.solution().set("PIMPLE/consistent", "yes"); },
+        {"fvSolution", "'consistent'", "allowed: no"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationtype", "RAS"); },
+        {"turbulenceProperties", "did you mean 'simulationType'?"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("RAS/RASModel", "kEpsilon"); },
+        {"turbulenceProperties", "simulationType"}, SeenBy::dictionaries);
+}
+
+/// Values that a case sets and the script replaces, or does not use; forces that could not act: refused, or a warning,
+/// where the program ran without them.
+TEST(BadInput, ValuesWithoutEffect)
+{
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling().set("DEM/variables/friction", "0.3");
+            test.dem.more += "variable friction equal 0.5\n";
+        },
+        {script + " line ", "'variable friction equal 0.5'", "DEM { variables { friction } }", "index"},
+        SeenBy::engine);
+    const std::string lubricated = "(DiFeliceDrag gradPForce viscForce Archimedes lubricationForce)";
+    expectRefused(
+        [&](TestCase& test) {
+            test.coupling()
+                .set("forceModels", lubricated)
+                .set("lubricationForceProps/roughness", "1e-6")
+                .set("lubricationForceProps/wallReach", "1");
+        },
+        {couplingProperties, "'wallReach'", "'walls"}, SeenBy::dictionaries);
+    expectRefused(
+        [&](TestCase& test) {
+            test.coupling().set("forceModels", lubricated).set("lubricationForceProps/roughness", "1e-6");
+            test.dem.more += "pair_style none\n";
+        },
+        {"'lubricationForce'", "pair_style none", "allowed: pair_style gran"}, SeenBy::engine);
+
+    const auto withDefault = [](TestCase& test) {
+        test.coupling().set("DEM/variables/frition", "0.3");
+        test.dem.more += "variable friction index 0.5\nprint \"friction ${friction}\"\n";
+    };
+    expectRefused(withDefault, {"DEM { variables { frition } }", "did you mean 'friction'?"}, SeenBy::engine);
+
+    TestCase unused;
+    fillIn(unused);
+    unused.extraFiles.clear();
+    withDefault(unused);
+    unused.coupling().set("DEM/variables/friction", "0.3");
+    const Outcome outcome = unused.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_TRUE(unused.runCommand("grep 'friction 0.3' log.liggghts").succeeded()) << "index is a default only";
+}
+
 /// A pressure solver that stops at maxIter is reported once, counted at the end, and ends a run that goes on like that. The
 /// program went on in silence.
 TEST(BadInput, UnconvergedPressure)

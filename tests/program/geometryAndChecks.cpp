@@ -272,4 +272,24 @@ TEST(GeometryAndChecks, AnInsertionOnTopOfAnotherParticleIsRefused)
     EXPECT_THAT(outcome.output, testing::HasSubstr("allowed at the start and at an insertion"));
 }
 
+/// Particles ten times smaller than the first, for which the DEM step is too long, are inserted later: refused at the next
+/// written time at the latest. The step was checked for the first particles only.
+TEST(GeometryAndChecks, ADemStepTooLongForInsertedParticlesIsRefused)
+{
+    TestCase test;
+    test.dem.particles = {{0.01, 0.01, 0.001}};
+    test.setTimes(0.04, interval, 0.02);
+    test.dem.more = "region top block 0.005 0.015 0.005 0.015 0.03 0.038 units box\n"
+                    "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+                    "constant 0.0001\n"
+                    "fix sizes all particledistribution/discrete 32452843 1 small 1.0\n"
+                    "fix feed all insert/rate/region seed 86028121 distributiontemplate sizes nparticles 3 "
+                    "particlerate 500 insert_every 200 overlapcheck yes all_in yes vel constant 0. 0. 0. region top\n"
+                    "fix integrate all nve/sphere\n";
+    const Outcome outcome = test.run();
+    EXPECT_FALSE(outcome.succeeded());
+    EXPECT_THAT(outcome.output, testing::HasSubstr("of the Rayleigh time"));
+    EXPECT_THAT(outcome.output, testing::HasSubstr("Time = 0.01\n")) << "not refused at the start";
+}
+
 } // namespace clepsydra::tests

@@ -2,16 +2,18 @@
 surrogate; seconds."""
 
 import contextlib
+import os
 import re
 import shutil
 import signal
 import subprocess
 import unittest
+import unittest.mock
 from typing import Any, Iterator
 
 from hopper_case import HopperCase
 
-from clepsydra import parameter_file
+from clepsydra import hopper_run, parameter_file
 
 
 class Stops(HopperCase):
@@ -124,6 +126,27 @@ class Ranks(HopperCase):
         self.prepare("dry", 4)
         self.assertTrue(step.read_text().startswith(text))
         self.assertIn("ranksAlongY     2;\n", step.read_text())
+
+    def test_other_ranks_keep_the_fields_of_all_times(self) -> None:
+        """From two ranks to four: the times that two ranks have written, not those of one rank before, are put together
+        before decomposePar removes the folders of the old ranks; one that is not whole is not."""
+        step = self.folder / "step"
+        for time, marker in (("0.1", "complete"), ("0.2", "complete"), ("0.3", "complete"), ("0.4", "beginning")):
+            (step / "checkpoints" / time).mkdir(parents=True)
+            (step / "checkpoints" / time / marker).touch()
+        (step / "0.1").mkdir()
+        (step / "ranksOnDisk").write_text("2\n")
+        for name in ("reconstructPar", "decomposePar"):
+            self.program(self.folder / "bin" / name, f'#!/bin/sh\necho {name} "$@" >> {self.folder}/calls\n')
+        openfoam = next((self.folder / "dependencies").iterdir())
+        path = f"{self.folder / 'bin'}:{os.environ['PATH']}"
+        with unittest.mock.patch.dict(os.environ, {"PATH": path, "WM_PROJECT_DIR": str(openfoam)}):
+            hopper_run.Step(step).redistribute(4)
+        self.assertEqual(
+            (self.folder / "calls").read_text(),
+            "reconstructPar -time 0.2,0.3\ndecomposePar -force -time 0.3\n",
+        )
+        self.assertEqual((step / "ranksOnDisk").read_text(), "4\n")
 
     def prepare(self, step: Any, ranks: int) -> None:
         self.succeeds("-np", str(ranks), "-prepare", step)

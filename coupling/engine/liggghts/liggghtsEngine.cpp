@@ -29,7 +29,7 @@ namespace clepsydra
 struct LiggghtsEngine::Parts
 {
     explicit Parts(const LiggghtsSetup& setup)
-        : outputFiles(setup.logFile, setup.outputs),
+        : outputFiles(setup.logFile, setup.outputs, !setup.resumeFrom.empty()),
           program(setup.logFile, setup.communicator, setup.onWarning),
           commands((registerHertzPairStyle(), replaceNeighbourSearch(program), replaceMeshWallContacts(program),
               allowUnequalSubdomains(program), runScript(program, outputFiles, setup))),
@@ -97,7 +97,7 @@ TemperaturesView LiggghtsEngine::temperatures()
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     LiggghtsProgram& program = parts_->program;
-    parts_->particles.addProperties();
+    parts_->particles.addProperties(parts_->resumed);
     parts_->lastForces.emplace(program, parts_->resumed);
     for (const GroupChanger& changer : parts_->groupChangers)
     {

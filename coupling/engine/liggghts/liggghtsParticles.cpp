@@ -8,6 +8,7 @@
 #include <domain.h>
 #include <force.h>
 #include <lammps.h>
+#include <modify.h>
 #include <neigh_list.h>
 #include <neighbor.h>
 #include <pair.h>
@@ -21,6 +22,11 @@ namespace lmp = LAMMPS_NS;
 
 void LiggghtsParticles::requestPairs(double reach)
 {
+    if (program_->force->pair == nullptr)
+    {
+        throw DemEngineError("'lubricationForce' in couplingProperties acts between near particles, of which LIGGGHTS "
+                             "has no list with pair_style none; allowed: pair_style gran");
+    }
     pairsRequested_ = true;
     // Widens the neighbour lists in addition to the skin, so that the distance which particles may move between two lists
     // is not reduced.
@@ -37,7 +43,7 @@ void LiggghtsParticles::requestMemory(int numbers)
     memorySize_ = numbers;
 }
 
-void LiggghtsParticles::addProperties()
+void LiggghtsParticles::addProperties(bool resumed)
 {
     using InRestartFiles = ParticleProperty::InRestartFiles;
     if (!stateOfNewParticle_.empty())
@@ -48,12 +54,29 @@ void LiggghtsParticles::addProperties()
     insertionRamp_.emplace(program_, "clepsydraInsertionRamp", std::vector<double>{1}, InRestartFiles::yes);
     if (memorySize_ > 0)
     {
-        memory_.emplace(program_, "clepsydraMemory", std::vector<double>(static_cast<std::size_t>(memorySize_), 0.0),
-            InRestartFiles::yes);
+        addMemory(resumed);
     }
     if (heat_)
     {
         addTemperatures();
+    }
+}
+
+void LiggghtsParticles::addMemory(bool resumed)
+{
+    // With its size in the name, LIGGGHTS does not read the memory of other forces into this one.
+    const std::string name = "clepsydraMemory" + std::to_string(memorySize_);
+    const std::vector<double> zeros(static_cast<std::size_t>(memorySize_), 0.0);
+    memory_.emplace(program_, name, zeros, ParticleProperty::InRestartFiles::yes);
+    if (!resumed)
+    {
+        std::fill_n(memory_->values(), static_cast<std::ptrdiff_t>(memorySize_) * program_->atom->nlocal, 0.0);
+    }
+    else if (!program_->modify->have_restart_data(program_->modify->find_fix_id(name.c_str())))
+    {
+        throw DemEngineError("The checkpoint does not hold, for each particle, the memory of the forces of "
+                             "couplingProperties: 'historyForce' or 'turbulentDispersion' was added or removed, or an "
+                             "earlier version wrote it; allowed: the forces of the stopped run, or a fresh start");
     }
 }
 

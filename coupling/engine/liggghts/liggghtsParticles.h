@@ -27,8 +27,10 @@ public:
     void requestTemperatures(const HeatOfParticles& heat);
     TemperaturesView temperatures();
 
-    /// Adds what was requested to LIGGGHTS, and the insertion ramp.
-    void addProperties();
+    /// Adds what was requested to LIGGGHTS, and the insertion ramp. The memory continues in a resumed run only; in
+    /// another run that starts from a file of particles it is zero.
+    /// \throws DemEngineError where the checkpoint of a resumed run holds no memory of this size
+    void addProperties(bool resumed);
 
     ParticlesView view(const ParticlePairs& pairs = {}, bool advancesMemory = true,
         const ConstView<bool>& fixed = ConstView<bool>(nullptr, 0)) const;
@@ -48,6 +50,7 @@ public:
     std::vector<bool> areNew() const;
 
 private:
+    void addMemory(bool resumed);
     void addTemperatures();
 
     LiggghtsProgram& program_;

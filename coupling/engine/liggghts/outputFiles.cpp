@@ -52,9 +52,9 @@ OutputFiles* OutputFiles::current()
     return currentFiles;
 }
 
-OutputFiles::OutputFiles(std::string log, std::vector<EngineOutput> continued)
+OutputFiles::OutputFiles(std::string log, std::vector<EngineOutput> continued, bool resumes)
     : log_(std::move(log)),
-      resumes_(!continued.empty()),
+      resumes_(resumes),
       continued_(std::move(continued))
 {
     currentFiles = this;

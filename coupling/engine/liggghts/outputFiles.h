@@ -19,9 +19,9 @@ namespace clepsydra
 class OutputFiles
 {
 public:
-    /// \param log  LIGGGHTS' log: where others are continued, it is appended to; it is not checked
+    /// \param log  LIGGGHTS' log: a resumed run appends to it; it is not checked
     /// \param continued  of the run that is resumed: where LIGGGHTS begins one of these again, it is continued
-    OutputFiles(std::string log, std::vector<EngineOutput> continued);
+    OutputFiles(std::string log, std::vector<EngineOutput> continued, bool resumes);
     ~OutputFiles();
     OutputFiles(const OutputFiles&) = delete;
     OutputFiles& operator=(const OutputFiles&) = delete;

@@ -5,11 +5,13 @@
 #include "engine/liggghts/particleChecks.h"
 #include "engine/liggghts/restartFiles.h"
 #include "engine/liggghts/subdomains.h"
+#include "tokens/didYouMean.h"
 
 #include <atom.h>
 #include <lammps.h>
 
 #include <exception>
+#include <algorithm>
 #include <string>
 
 namespace clepsydra
@@ -66,6 +68,54 @@ OnResume whatOnResume(const LiggghtsProgram& program, const std::string& command
     return onResume(!command.empty() && command.front() == '$' ? program.withVariables(command) : command);
 }
 
+/// The script must not replace a variable that the case sets. `index` keeps the first value, as a default does.
+void requireKept(const ScriptVariables& variables, const ScriptCommand& command)
+{
+    constexpr std::size_t name = 1;
+    constexpr std::size_t style = 2;
+    const std::vector<std::string> words = tokensOf(command.text);
+    if (!isCommand(command.text, "variable") || words.size() <= style || words[style] == "index")
+    {
+        return;
+    }
+    const bool isSet = std::any_of(
+        variables.begin(), variables.end(), [&](const auto& variable) { return variable.first == words[name]; });
+    if (isSet)
+    {
+        throw DemEngineError(command.where + ": '" + command.text + "' replaces the value of DEM { variables { "
+                             + words[name] + " } }; allowed: one of the two, or 'variable " + words[name]
+                             + " index <default>', which keeps the value of the case");
+    }
+}
+
+/// A misspelt variable of the case would leave the script's default (`variable friction index 0.5`) in its place.
+void requireNoMisspeltDefaults(const ScriptVariables& variables, const std::vector<ScriptCommand>& commands)
+{
+    constexpr std::size_t name = 1;
+    constexpr std::size_t style = 2;
+    const std::vector<std::string> set = namesOf(variables);
+    std::vector<std::string> defaults;
+    std::string script;
+    for (const ScriptCommand& command : commands)
+    {
+        script += command.text + '\n';
+        const std::vector<std::string> words = tokensOf(command.text);
+        if (isCommand(command.text, "variable") && words.size() > style && words[style] == "index"
+            && std::find(set.begin(), set.end(), words[name]) == set.end())
+        {
+            defaults.push_back(words[name]);
+        }
+    }
+    for (const std::string& each : set)
+    {
+        const std::string near = didYouMean(each, defaults);
+        if (!near.empty() && script.find("${" + each + '}') == std::string::npos)
+        {
+            throw DemEngineError("DEM { variables { " + each + " } } has no effect: the script does not use it" + near);
+        }
+    }
+}
+
 /// Particles with a radius and a mass each, which the coupling reads from LIGGGHTS' arrays.
 void requireSpheres(const LiggghtsProgram& program)
 {
@@ -89,7 +139,9 @@ std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outp
     std::vector<ScriptCommand> executed;
     const bool resumes = !setup.resumeFrom.empty();
     bool boxMade = false;
-    for (ScriptCommand& command : readScript(setup.script, setup.variables))
+    std::vector<ScriptCommand> commands = readScript(setup.script, setup.variables);
+    requireNoMisspeltDefaults(setup.variables, commands);
+    for (ScriptCommand& command : commands)
     {
         if (setup.writesNothing && writesFiles(command.text))
         {
@@ -107,6 +159,7 @@ std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outp
         const OnResume onResume = whatOnResume(program, command.text);
         if (!resumes || onResume == OnResume::repeat || onResume == OnResume::unknown)
         {
+            requireKept(setup.variables, command);
             requireUndamagedInput(program, command);
             executed.push_back(execute(program, command));
         }
