@@ -82,6 +82,7 @@ ENTRIES: dict[str, list[Optional[str]]] = {
     "coupling/functionObjects/particleMeans.cpp": ["entries-particleMeans"],
     "solvers/pimpleDemFoam/liggghtsSetup.cpp": ["entries-groupChanges"],
     "solvers/pimpleDemFoam/pimpleDemFoam.C": ["entries-transportProperties"],
+    "solvers/pimpleDemFoam/turbulence.cpp": ["entries-turbulenceProperties"],
 }
 
 # File of each list of keys that YamlPlace::allow() is given, in the order of the lists -> label, and what stands before
