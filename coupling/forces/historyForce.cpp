@@ -30,8 +30,7 @@ static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as 
 
 /// History force -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A particle's history begins at its first
 /// step in the fluid (one that has just been inserted, or is outside the mesh, is in none); the relative velocity is
-/// taken as constant before. The contribution of the last DEM step is
-/// implicit in the particle's inertia.
+/// taken as constant before. The contribution of the last DEM step is implicit in the particle's inertia.
 ///
 ///     historyForceProps { law Basset; }         // creeping flow
 ///     historyForceProps { law MeiAdrian; }      // finite Re; the default

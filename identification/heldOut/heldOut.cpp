@@ -557,12 +557,12 @@ private:
             return;
         }
         const double level = study_.settings.level;
-        auto& reasons = result_.notBetterBecause;
-        reasons = unpredicted_;
         if (rows_.empty())
         {
-            reasons.emplace_back("nothing could be compared");
+            unpredicted_.emplace_back("nothing could be compared");
         }
+        auto& reasons = result_.notBetterBecause;
+        reasons = unpredicted_;
         for (const auto& [isRefuted, reason] :
             {std::pair(answer_.decision == Decision::named, "it is not the only explanation"),
                 std::pair(result_.after->overNull.isBeyondChance(level),
@@ -578,7 +578,7 @@ private:
             }
         }
         result_.better = reasons.empty();
-        result_.complete = unpredicted_.empty() && !rows_.empty() && result_.after->pValue > level;
+        result_.complete = unpredicted_.empty() && result_.after->pValue > level;
     }
 
     StudySimulator& studySimulator_;

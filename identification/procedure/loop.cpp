@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -161,7 +162,8 @@ void sayContents(const Study& study, const std::vector<MeasuredCondition>& train
         << counted(study.effects.size(), "effect") << '\n';
     if (!study.leftOut.empty())
     {
-        out << "effects of the library that are left out: " << listed(study.leftOut) << '\n';
+        out << "effects of the library that are left out: "
+            << listed(mapped(study.leftOut, std::mem_fn(&LeftOut::text))) << '\n';
     }
     const auto heldOut = study.conditionsOf(Role::heldOut).size();
     out << (heldOut > 0 ? counted(heldOut, "condition") + " held out to test the answer"

@@ -346,7 +346,8 @@ Json factsOf(const Findings& findings)
         {"atEnds", mapped(valuesAtEnds(findings), capitalised)}, {"largest", largestOf(study, without)},
         {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
         {"wrongNamesFound", answer.calibration.wrongNames}, {"modelError", study.modelError.maxCoeff() > 0.0},
-        {"leftOut", mapped(study.leftOut, inLine)}, {"differ", study.simulator.scatters()}};
+        {"leftOut", mapped(study.leftOut, [](const LeftOut& one) { return inLine(one.text()); })},
+        {"differ", study.simulator.scatters()}};
     std::vector<std::string> interpolated; // members of the set without a run at their fit
     for (const auto& each : answer.set)
     {

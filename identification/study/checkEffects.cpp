@@ -82,6 +82,7 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     {
         all.insert(condition.entries.begin(), condition.entries.end());
     }
+    const Expression::Variables numbers = numbersOf(all);
     const auto check = [&](const std::string& where, const std::map<std::string, Expression>& formulas,
                            Expression::Variables variables, const std::string& variable, double value) {
         variables[variable] = value;
@@ -99,11 +100,11 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     };
     for (const auto& parameter : study.parameters)
     {
-        check("parameter '" + parameter.name + "'", parameter.entries, numbersOf(all), parameter.name, parameter.mean);
+        check("parameter '" + parameter.name + "'", parameter.entries, numbers, parameter.name, parameter.mean);
     }
     for (const auto& effect : study.effects)
     {
-        check("effect '" + effect.name + "'", effect.entries, numbersOf(all), "a", effect.bounds.upper);
+        check("effect '" + effect.name + "'", effect.entries, numbers, "a", effect.bounds.upper);
         if (effect.chainSize)
         {
             check("effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, {}, "a",

@@ -65,6 +65,27 @@ ColumnSpecification readColumn(const YamlPlace& place)
     return column;
 }
 
+/// Requires a unit of what a feature measures. An observable may have any but a time.
+void requireUnitOf(const YamlPlace& unit, const FeatureKind& kind)
+{
+    const std::string quantity = quantityOf(unit.text());
+    const bool isRate = quantity == "speed" || quantity.find("rate") != std::string::npos;
+    const auto require = [&](bool isRight, const std::string& allowed) {
+        unit.failIf(!isRight, "'" + unit.text() + "' is no unit of " + kind.name + "; allowed are units of " + allowed);
+    };
+    switch (kind.dimension)
+    {
+        case Dimension::share:
+            return require(quantity == "share", "a share, as 1 or %");
+        case Dimension::time:
+            return require(quantity == "time", "time, as s");
+        case Dimension::rate:
+            return require(isRate, "a rate, as g/s or m/s");
+        case Dimension::value:
+            return require(quantity != "time", "the observable, as g or m/s");
+    }
+}
+
 MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
 {
     place.allow({"feature", "values", "unit", "relativeError", "standardError"});
@@ -72,19 +93,7 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     number.feature = indexOf(place.at("feature"), study.features);
     std::tie(number.unit, number.siUnits) = readUnit(place.at("unit"));
     const bool isLog = study.features[number.feature].kind->isLog();
-    const Dimension dimension = study.features[number.feature].kind->dimension;
-    const std::string quantity = quantityOf(number.unit);
-    const bool isRate = quantity == "speed" || quantity.find("rate") != std::string::npos;
-    const bool isRight = dimension == Dimension::time    ? quantity == "time"
-                         : dimension == Dimension::share ? quantity == "share"
-                         : dimension == Dimension::rate  ? isRate
-                                                         : quantity != "time";
-    place.at("unit").failIf(!isRight, "'" + number.unit + "' is no unit of " + study.features[number.feature].kind->name
-                                          + "; allowed are units of "
-                                          + (dimension == Dimension::time     ? "time, as s"
-                                              : dimension == Dimension::share ? "a share, as 1 or %"
-                                              : dimension == Dimension::rate  ? "a rate, as g/s or m/s"
-                                                                              : "the observable, as g or m/s"));
+    requireUnitOf(place.at("unit"), *study.features[number.feature].kind);
     const auto values = place.at("values").oneOrMore();
     place.at("values").failIf(values.empty(), "needs at least one number");
     for (const auto& value : values)
@@ -184,34 +193,49 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     return condition;
 }
 
+/// Whether two names, or a name and a number, mean one column of a file.
+bool isSameColumn(const std::filesystem::path& file, const std::string& one, const std::string& other)
+{
+    if (one == other)
+    {
+        return true;
+    }
+    try
+    {
+        const Table table = readTable(file);
+        return table.index(one) == table.index(other);
+    }
+    catch (const std::runtime_error&)
+    {
+        return false; // the measurement itself is read later, with an error that says more
+    }
+}
+
 /// The same measurement must not count twice, and must not be both training and held-out.
 void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
 {
-    std::map<std::tuple<std::filesystem::path, std::string, double>, std::string> owners;
-    // A column may be given by its name or its number.
-    const auto columnIn = [](const std::filesystem::path& file, const std::string& column) {
-        try
-        {
-            return std::to_string(readTable(file).index(column));
-        }
-        catch (const std::runtime_error&)
-        {
-            return column; // the measurement itself is read later, with an error that says more
-        }
+    struct Owner
+    {
+        std::string condition;
+        std::string column;
     };
+    std::map<std::pair<std::filesystem::path, double>, std::vector<Owner>> ownersOf;
     for (std::size_t c = 0; c < study.conditions.size(); ++c)
     {
         const auto& [name, measured] = std::tie(study.conditions[c].name, study.conditions[c].measured);
         for (const auto& file : measured.files)
         {
-            // Parts of one record are distinguished by the valid times.
-            const auto [owner, isNew] = owners.emplace(std::tuple(std::filesystem::canonical(file),
-                                                           columnIn(file, measured.value.column), measured.time.lowest),
-                name);
+            const std::string& column = measured.value.column;
             const YamlPlace place = root.at("conditions").list()[c].at("measured").at("files");
-            place.failIf(!isNew, "condition '" + name + "' has " + file.string() + " with its column "
-                                     + measured.value.column + ", which condition '" + owner->second
-                                     + "' has already; a measurement may be given once");
+            // Parts of one record are distinguished by the valid times.
+            auto& owners = ownersOf[{std::filesystem::canonical(file), measured.time.lowest}];
+            for (const auto& owner : owners)
+            {
+                place.failIf(isSameColumn(file, column, owner.column),
+                    "condition '" + name + "' has " + file.string() + " with its column " + column
+                        + ", which condition '" + owner.condition + "' has already; a measurement may be given once");
+            }
+            owners.push_back({name, column});
         }
     }
 }

@@ -72,8 +72,9 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
 
 /// Why an effect is not absent at amplitude 0, or never present; empty if it is as it must be.
 /// \param entries  of the case, by condition
-std::string objectionTo(
-    const YamlPlace& place, const Effect& effect, const Study& study, const std::vector<Entries>& entries)
+/// \param atZero  the entries that are numbers, and a = 0
+std::string objectionTo(const YamlPlace& place, const Effect& effect, const Study& study,
+    const std::vector<Entries>& entries, const std::vector<Expression::Variables>& atZero)
 {
     if (effect.chainSize)
     {
@@ -92,20 +93,18 @@ std::string objectionTo(
         changes = changes || std::any_of(effect.textEntries.begin(), effect.textEntries.end(), [&](const auto& own) {
             return entries[c].at(own.first) != own.second;
         });
-        auto numbers = numbersOf(entries[c]);
-        numbers["a"] = 0.0;
         for (const auto& [entry, formula] : effect.entries)
         {
-            const auto own = numbers.find(entry);
             if (!formula.holds("a"))
             {
                 continue; // a setting that the effect needs, as a shorter step
             }
-            if (own == numbers.end())
+            const auto own = atZero[c].find(entry);
+            if (own == atZero[c].end())
             {
                 return entry + " is '" + entries[c].at(entry) + "' in the case, which is no number for a formula";
             }
-            const double value = valueOf(place.at("set").at(entry), formula, numbers);
+            const double value = valueOf(place.at("set").at(entry), formula, atZero[c]);
             if (!isUnchanged(value, own->second))
             {
                 return entry + " is " + textOf(own->second) + " in the case, but " + textOf(value) + " at a = 0";
@@ -126,11 +125,16 @@ void readAllEffects(const YamlPlace& root, Study& study)
         const std::size_t same = std::find(names.begin(), names.end(), effect.name) - names.begin();
         all.resize(std::max(all.size(), same + 1));
         all[same] = effect;
-        eraseIf(study.leftOut, [&](const std::string& text) { return text.rfind(effect.name + " (", 0) == 0; });
+        eraseIf(study.leftOut, [&](const LeftOut& one) { return one.name == effect.name; });
     };
     const Entries known = ownEntries(study.simulator);
     const auto entries =
         mapped(study.conditions, [&](const Condition& condition) { return plainEntries(study.simulator, condition); });
+    const auto atZero = mapped(entries, [](const Entries& ofOne) {
+        auto numbers = numbersOf(ofOne);
+        numbers["a"] = 0.0;
+        return numbers;
+    });
     for (const auto& file : root.optional("effectsFrom").oneOrMore())
     {
         const auto library = YamlPlace::fileAt(file.path());
@@ -139,16 +143,16 @@ void readAllEffects(const YamlPlace& root, Study& study)
         for (std::size_t i = 0; i < offered.size(); ++i)
         {
             const auto missing = missingEntries(offered[i], known);
-            const std::string reason = missing.empty()
-                                           ? objectionTo(library.at("effects").list()[i], offered[i], study, entries)
-                                           : "the case has no entry " + listed(missing);
+            const std::string reason =
+                missing.empty() ? objectionTo(library.at("effects").list()[i], offered[i], study, entries, atZero)
+                                : "the case has no entry " + listed(missing);
             if (reason.empty())
             {
                 add(offered[i]);
             }
             else
             {
-                study.leftOut.push_back(offered[i].name + " (" + reason + ")");
+                study.leftOut.push_back({offered[i].name, reason});
             }
         }
     }
@@ -160,7 +164,7 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             requireEntry(place.at("set").at(entry), entry, study.simulator);
         }
-        const std::string objection = objectionTo(place, own[i], study, entries);
+        const std::string objection = objectionTo(place, own[i], study, entries, atZero);
         place.failIf(
             !objection.empty(), "effect '" + own[i].name + "': " + objection
                                     + "; allowed is an effect that is absent at amplitude 0, with a formula such "
@@ -174,8 +178,7 @@ void readAllEffects(const YamlPlace& root, Study& study)
         if (key == "withoutEffects")
         {
             // Those that this case has already may be named as well.
-            append(mayBeNamed,
-                mapped(study.leftOut, [](const std::string& text) { return text.substr(0, text.find(" (")); }));
+            append(mayBeNamed, namesOfItems(study.leftOut));
         }
         const auto names =
             mapped(root.optional(key).oneOrMore(), [&](const YamlPlace& name) { return name.oneOf(mayBeNamed); });
@@ -198,7 +201,7 @@ void leaveOutIdle(Study& study)
         {
             continue;
         }
-        study.leftOut.push_back(effect.name + " (it acts in no training condition)");
+        study.leftOut.push_back({effect.name, "it acts in no training condition"});
         study.effects.erase(study.effects.begin() + static_cast<std::ptrdiff_t>(e));
         eraseIf(study.parameters, [&](const Parameter& parameter) { return parameter.effect == e; });
         for (auto& parameter : study.parameters)

@@ -257,6 +257,18 @@ struct Settings
     std::string onFailure = "exclude";           // or stop
 };
 
+/// An effect that is left out, and why.
+struct LeftOut
+{
+    std::string name;
+    std::string reason;
+
+    std::string text() const
+    {
+        return name + " (" + reason + ')';
+    }
+};
+
 struct Study
 {
     std::string name;
@@ -277,7 +289,7 @@ struct Study
     ExecutorSpecification executor;
     Settings settings;
     std::vector<std::string> assumptions; // sentences of the user, which the report repeats
-    std::vector<std::string> leftOut;     // effects that are left out, each with the reason
+    std::vector<LeftOut> leftOut;         // effects that are left out
 
     /// Indices of the conditions with a role.
     std::vector<std::size_t> conditionsOf(Role role) const

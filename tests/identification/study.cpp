@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -556,6 +557,11 @@ TEST(StudyFile, ShippedLibraries)
     EXPECT_EQ(family(settlingParticle, "history"), (std::set<std::string>{"historyForce", "historyForceCreeping"}));
 }
 
+std::vector<std::string> textsOf(const std::vector<LeftOut>& leftOut)
+{
+    return mapped(leftOut, std::mem_fn(&LeftOut::text));
+}
+
 /// A library serves many cases: effects that this case has no entries for, or has already, are left out and listed,
 /// which is no error.
 TEST(StudyFile, LibraryEffectsThatDoNotSuitTheCaseAreLeftOut)
@@ -568,7 +574,7 @@ TEST(StudyFile, LibraryEffectsThatDoNotSuitTheCaseAreLeftOut)
                                  "  - { name: size, set: { particleDiameter: 0.1*a } }\n");
     const Study study = studyOf(folder, goodStudy + "effectsFrom: library.yaml\n");
     EXPECT_EQ(namesOfItems(study.effects), (std::vector<std::string>{"rub", "size"}));
-    EXPECT_EQ(study.leftOut,
+    EXPECT_EQ(textsOf(study.leftOut),
         (std::vector<std::string>{"roll (the case has no entry rolling)",
             "rubber (wall is 0.3 in the case, but 0 at a = 0)", "noLift (the case has these values already)"}))
         << "the study's own 'size' is there";
@@ -590,7 +596,7 @@ TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
                            "  - { name: clock, chain: { timeFactor: 0.01*a } }\n"),
             "role: training", "role: training, tags: { medium: air }"));
     EXPECT_EQ(namesOfItems(study.effects), (std::vector<std::string>{"clock", "size"}));
-    EXPECT_EQ(study.leftOut, std::vector<std::string>{"drag (it acts in no training condition)"});
+    EXPECT_EQ(textsOf(study.leftOut), std::vector<std::string>{"drag (it acts in no training condition)"});
     EXPECT_EQ(namesOfItems(study.parameters), (std::vector<std::string>{"rough", "clockPart"}));
     EXPECT_EQ(study.parameters[1].effect, 0U);
 }

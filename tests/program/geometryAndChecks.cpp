@@ -40,6 +40,17 @@ void openAbove(TestCase& test)
     test.extraFiles["DEM/in.particles"] = test.dem.text(tall);
 }
 
+/// Lines that insert spheres at rest, every 200 DEM steps, into a region that another line defines.
+std::string insertion(
+    const std::string& radius, const std::string& count, const std::string& checked, const std::string& region)
+{
+    return "fix sphere all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius constant " + radius
+           + "\nfix spheres all particledistribution/discrete 32452843 1 sphere 1.0\n"
+             "fix feed all insert/rate/region seed 86028121 distributiontemplate spheres nparticles "
+           + count + " particlerate 500 insert_every 200 overlapcheck " + checked + " all_in " + checked
+           + " vel constant 0. 0. 0. region " + region + '\n';
+}
+
 } // namespace
 
 /// A particle as heavy as the water that moves exactly with it: nothing is exchanged but rounding, of drag times velocity.
@@ -262,11 +273,7 @@ TEST(GeometryAndChecks, AnInsertionOnTopOfAnotherParticleIsRefused)
     test.dem.particles = {{0.01, 0.01, 0.001}};
     test.setTimes(0.02, interval, 0.02);
     test.dem.more = "region spot block 0.0098 0.0102 0.0098 0.0102 0.0005 0.0015 units box\n"
-                    "fix sphere all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-                    "constant 0.001\n"
-                    "fix spheres all particledistribution/discrete 32452843 1 sphere 1.0\n"
-                    "fix pour all insert/rate/region seed 86028121 distributiontemplate spheres nparticles INF "
-                    "particlerate 500 insert_every 200 overlapcheck no all_in no vel constant 0. 0. 0. region spot\n";
+                    + insertion("0.001", "INF", "no", "spot");
     const Outcome outcome = test.run();
     EXPECT_FALSE(outcome.succeeded());
     EXPECT_THAT(outcome.output, testing::HasSubstr("allowed at the start and at an insertion"));
@@ -280,12 +287,7 @@ TEST(GeometryAndChecks, ADemStepTooLongForInsertedParticlesIsRefused)
     test.dem.particles = {{0.01, 0.01, 0.001}};
     test.setTimes(0.04, interval, 0.02);
     test.dem.more = "region top block 0.005 0.015 0.005 0.015 0.03 0.038 units box\n"
-                    "fix small all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
-                    "constant 0.0001\n"
-                    "fix sizes all particledistribution/discrete 32452843 1 small 1.0\n"
-                    "fix feed all insert/rate/region seed 86028121 distributiontemplate sizes nparticles 3 "
-                    "particlerate 500 insert_every 200 overlapcheck yes all_in yes vel constant 0. 0. 0. region top\n"
-                    "fix integrate all nve/sphere\n";
+                    + insertion("0.0001", "3", "yes", "top") + "fix integrate all nve/sphere\n";
     const Outcome outcome = test.run();
     EXPECT_FALSE(outcome.succeeded());
     EXPECT_THAT(outcome.output, testing::HasSubstr("of the Rayleigh time"));

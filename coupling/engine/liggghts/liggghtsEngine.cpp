@@ -29,11 +29,11 @@ namespace clepsydra
 struct LiggghtsEngine::Parts
 {
     explicit Parts(const LiggghtsSetup& setup)
-        : outputFiles(setup.logFile, setup.outputs, !setup.resumeFrom.empty()),
+        : resumed(!setup.resumeFrom.empty()),
+          outputFiles(setup.logFile, setup.outputs, resumed),
           program(setup.logFile, setup.communicator, setup.onWarning),
           commands((registerHertzPairStyle(), replaceNeighbourSearch(program), replaceMeshWallContacts(program),
-              allowUnequalSubdomains(program), runScript(program, outputFiles, setup))),
-          resumed(!setup.resumeFrom.empty())
+              allowUnequalSubdomains(program), runScript(program, outputFiles, setup)))
     {
         for (const GroupChange& change : setup.groupChanges)
         {
@@ -41,10 +41,10 @@ struct LiggghtsEngine::Parts
         }
     }
 
+    const bool resumed;
     OutputFiles outputFiles;
     LiggghtsProgram program;
     const std::vector<ScriptCommand> commands;
-    const bool resumed;
     std::vector<GroupChanger> groupChangers;
     LiggghtsParticles particles{program};
     InsertionCheck insertionCheck{particles};

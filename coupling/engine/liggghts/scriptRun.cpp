@@ -10,8 +10,8 @@
 #include <atom.h>
 #include <lammps.h>
 
-#include <exception>
 #include <algorithm>
+#include <exception>
 #include <string>
 
 namespace clepsydra
@@ -68,40 +68,32 @@ OnResume whatOnResume(const LiggghtsProgram& program, const std::string& command
     return onResume(!command.empty() && command.front() == '$' ? program.withVariables(command) : command);
 }
 
-/// The script must not replace a variable that the case sets. `index` keeps the first value, as a default does.
-void requireKept(const ScriptVariables& variables, const ScriptCommand& command)
-{
-    constexpr std::size_t name = 1;
-    constexpr std::size_t style = 2;
-    const std::vector<std::string> words = tokensOf(command.text);
-    if (!isCommand(command.text, "variable") || words.size() <= style || words[style] == "index")
-    {
-        return;
-    }
-    const bool isSet = std::any_of(
-        variables.begin(), variables.end(), [&](const auto& variable) { return variable.first == words[name]; });
-    if (isSet)
-    {
-        throw DemEngineError(command.where + ": '" + command.text + "' replaces the value of DEM { variables { "
-                             + words[name] + " } }; allowed: one of the two, or 'variable " + words[name]
-                             + " index <default>', which keeps the value of the case");
-    }
-}
-
-/// A misspelt variable of the case would leave the script's default (`variable friction index 0.5`) in its place.
-void requireNoMisspeltDefaults(const ScriptVariables& variables, const std::vector<ScriptCommand>& commands)
+/// The script must not replace a variable that the case sets, but for `variable NAME index VALUE`, which LIGGGHTS takes
+/// for a default. A misspelt variable of the case would leave such a default in its place.
+void requireVariablesOfTheCase(const ScriptVariables& variables, const std::vector<ScriptCommand>& commands)
 {
     constexpr std::size_t name = 1;
     constexpr std::size_t style = 2;
     const std::vector<std::string> set = namesOf(variables);
-    std::vector<std::string> defaults;
+    std::vector<std::string> defaults; // that the case does not set
     std::string script;
     for (const ScriptCommand& command : commands)
     {
         script += command.text + '\n';
         const std::vector<std::string> words = tokensOf(command.text);
-        if (isCommand(command.text, "variable") && words.size() > style && words[style] == "index"
-            && std::find(set.begin(), set.end(), words[name]) == set.end())
+        if (!isCommand(command.text, "variable") || words.size() <= style)
+        {
+            continue;
+        }
+        const bool isSet = std::find(set.begin(), set.end(), words[name]) != set.end();
+        const bool isDefault = words[style] == "index";
+        if (isSet && !isDefault)
+        {
+            throw DemEngineError(command.where + ": '" + command.text + "' replaces the value of DEM { variables { "
+                                 + words[name] + " } }; allowed: one of the two, or 'variable " + words[name]
+                                 + " index <default>', which keeps the value of the case");
+        }
+        if (!isSet && isDefault)
         {
             defaults.push_back(words[name]);
         }
@@ -140,7 +132,7 @@ std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outp
     const bool resumes = !setup.resumeFrom.empty();
     bool boxMade = false;
     std::vector<ScriptCommand> commands = readScript(setup.script, setup.variables);
-    requireNoMisspeltDefaults(setup.variables, commands);
+    requireVariablesOfTheCase(setup.variables, commands);
     for (ScriptCommand& command : commands)
     {
         if (setup.writesNothing && writesFiles(command.text))
@@ -159,7 +151,6 @@ std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outp
         const OnResume onResume = whatOnResume(program, command.text);
         if (!resumes || onResume == OnResume::repeat || onResume == OnResume::unknown)
         {
-            requireKept(setup.variables, command);
             requireUndamagedInput(program, command);
             executed.push_back(execute(program, command));
         }
