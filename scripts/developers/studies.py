@@ -27,7 +27,7 @@ CASES = environment.REPOSITORY / "cases" / "studies"
 STUDIES = {
     "startingSpheres": ("glass spheres released in water (Mordant & Pinton 2000)", "drag only"),
     "bouncesInOil": ("a steel sphere bounces in oil, St 152 (Gondret 2002)", "drag, dry restitution"),
-    "glycerineParticlesTall": ("particles settle in a tall tank of glycerine", "one viscosity"),
+    "glycerineParticlesTall": ("particles settle in a tall tank of glycerol", "one viscosity"),
     "sphereInBoxCurves": ("a sphere settles on the floor (ten Cate 2002)", "drag, added mass"),
     "particlesInTwoLiquids": ("particles in glycerol and in water", "Stokes' drag"),
     "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
@@ -114,7 +114,7 @@ def unseen(name: str, report: Any) -> dict[str, Any]:
     if scored:
         return {", ".join(scored["heldOut"]["conditions"]) + " (scored afterwards)": scored}
     left = {path.parent.name: read(path) for path in sorted(folder.glob("leftOut/*/report.json"))}
-    return {f"{one} (left out: {answer(each)})": each for one, each in left.items()}
+    return {f"{one} (fit without it: {answer(each)})": each for one, each in left.items()}
 
 
 OLD_RULE = "not judged"  # a report from before the joint test of held-out data; --run renews it
