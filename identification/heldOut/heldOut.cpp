@@ -229,11 +229,10 @@ public:
             result_.data[i].errorSlopes =
                 sharedErrorSlopes(studySimulator_, result_.conditions[i], result_.simulations.back());
         }
-        const auto simulateNamed = [&](const Explanation& one) { simulateBy(one, nameOf(study_, one.effects)); };
-        std::for_each(answer_.set.begin(), answer_.set.end(), simulateNamed);
-        if (answer_.set.empty() && answer_.nearest)
+        if (!answer_.set.empty() || answer_.nearest)
         {
-            simulateNamed(*answer_.nearest);
+            const Explanation& candidate = answer_.set.empty() ? *answer_.nearest : answer_.set.front();
+            simulateBy(candidate, nameOf(study_, candidate.effects));
         }
         result_.predictedBefore = compared_.front().predicted;
         result_.predictedAfter = compared_.size() > 1 ? compared_[1].predicted : std::vector<Prediction>{};
@@ -465,20 +464,16 @@ private:
         {
             result_.nearest = scoreOf(predictiveOf(compared_[1]), compared_[1].predicted);
         }
-        for (std::size_t i = 0; i < answer_.set.size(); ++i)
+        if (!answer_.set.empty())
         {
-            const Predictive predictive = predictiveOf(compared_[1 + i]);
-            result_.members.push_back(scoreOf(predictive, compared_[1 + i].predicted));
-            if (i == 0)
-            {
-                result_.after = result_.members.back();
-                // Draw by draw, so that noise common to both errors cancels.
-                const Eigen::ArrayXd fall = result_.before.errors - result_.after->errors;
-                result_.improvement = {result_.before.rmsLogError.value - result_.after->rmsLogError.value,
-                    std::sqrt((fall - fall.mean()).square().mean())};
-                result_.overOneMore = ratio(predictive, oneMore);
-                result_.overGaussianProcess = process ? ratio(predictive, *process) : LogRatio{};
-            }
+            const Predictive predictive = predictiveOf(compared_[1]);
+            result_.after = scoreOf(predictive, compared_[1].predicted);
+            // Draw by draw, so that noise common to both errors cancels.
+            const Eigen::ArrayXd fall = result_.before.errors - result_.after->errors;
+            result_.improvement = {result_.before.rmsLogError.value - result_.after->rmsLogError.value,
+                std::sqrt((fall - fall.mean()).square().mean())};
+            result_.overOneMore = ratio(predictive, oneMore);
+            result_.overGaussianProcess = process ? ratio(predictive, *process) : LogRatio{};
         }
         // The error from noise alone is that of a prediction whose mean equals the measured one.
         auto right = result_.after ? result_.predictedAfter : result_.predictedBefore;
@@ -585,8 +580,9 @@ private:
     const Study& study_;
     const Answer& answer_;
     std::mt19937_64& random_;
-    std::vector<Compared> compared_; // the null; the members of the set or, without any, the nearest effect; control 1
-    std::vector<Row> rows_;          // of the joint prediction
+    /// The null; the most probable candidate or, without any, the nearest effect; control 1
+    std::vector<Compared> compared_;
+    std::vector<Row> rows_;                        // of the joint prediction
     std::vector<std::vector<Eigen::Index>> byRms_; // features that enter the rms error, by condition
     std::vector<std::string> unpredicted_;         // measured features that are not scored
     Eigen::VectorXd measured_;                     // values of the rows

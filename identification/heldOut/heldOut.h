@@ -17,33 +17,32 @@ namespace clepsydra::identification
 struct HeldOutResult
 {
     HeldOutScore before;               // null fit
-    std::optional<HeldOutScore> after; // best explanation, if there is one
+    std::optional<HeldOutScore> after; // most probable candidate, if there is one
     /// Answer::nearest, if no effect explains the residual. It is no explanation: nothing is judged by it.
     std::optional<HeldOutScore> nearest;
     HeldOutScore oneMoreParameter; // control 1: null fit with one more free parameter
     /// Control 2: null with a Gaussian process on its residual; empty if conditions lack coordinates.
     std::optional<HeldOutScore> gaussianProcess;
-    std::vector<HeldOutScore> members; // of Answer::set
-    LogRatio overOneMore;              // best explanation against control 1
-    LogRatio overGaussianProcess;      // best explanation against control 2
-    Estimate improvement;              // rms error before minus after
-    double noiseFloor = 0.0;           // expected rms error from noise alone
-    double oneMoreAmplitude = 0.0;     // fitted size of control 1
-    bool ofLogs = true;                // whether rms errors are those of logarithms, which are relative
+    LogRatio overOneMore;          // most probable candidate against control 1
+    LogRatio overGaussianProcess;  // most probable candidate against control 2
+    Estimate improvement;          // rms error before minus after
+    double noiseFloor = 0.0;       // expected rms error from noise alone
+    double oneMoreAmplitude = 0.0; // fitted size of control 1
+    bool ofLogs = true;            // whether rms errors are those of logarithms, which are relative
     bool better = false;
     bool complete = false;
     std::vector<std::string> notBetterBecause;
     std::vector<std::string> notScored; // features of the study that are not compared, and why
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
-    std::vector<Prediction> predictedAfter;           // by the best explanation or the nearest effect
+    std::vector<Prediction> predictedAfter;           // by the most probable candidate or the nearest effect
     std::vector<std::vector<Simulation>> simulations; // before, after
     std::vector<HeldOutData> data;
 };
 
 /// Simulates the held-out conditions at the fitted settings and compares the results with the measurements.
 ///
-/// Each explanation (null, members of the set or, without any, the nearest effect, controls) predicts all measured
+/// Each explanation (null, most probable candidate or, without any, the nearest effect, controls) predicts all measured
 /// held-out features at once, as `predict` describes. What is taken from where:
 ///     training data    mean, slopes and uncertainty of the emulator at the fitted setting, slopes of common errors from
 ///                      the library, noise and declared errors of the measurements

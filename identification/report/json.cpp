@@ -210,12 +210,6 @@ Json heldOutJson(const Findings& findings)
     const Study& study = *findings.study;
     const HeldOutResult& result = *findings.heldOut;
     const Json names = mapped(result.conditions, [&](std::size_t c) { return study.conditions[c].name; });
-    Json members = Json::array();
-    for (std::size_t i = 0; i < result.members.size(); ++i)
-    {
-        members.push_back(result.members[i]);
-        members.back()["name"] = nameOf(study, findings.answer->set[i].effects);
-    }
     if (result.conditions.empty())
     {
         return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"nearest", nullptr},
@@ -230,7 +224,7 @@ Json heldOutJson(const Findings& findings)
         {"overOneMoreParameter", result.overOneMore},
         {"overGaussianProcess", result.gaussianProcess ? Json(result.overGaussianProcess) : Json(nullptr)},
         {"noiseFloor", result.noiseFloor}, {"better", result.better}, {"complete", result.complete},
-        {"notBetterBecause", result.notBetterBecause}, {"notScored", result.notScored}, {"members", members},
+        {"notBetterBecause", result.notBetterBecause}, {"notScored", result.notScored},
         {"numbers", heldOutNumbers(study, result)}};
 }
 
