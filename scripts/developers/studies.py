@@ -31,6 +31,7 @@ STUDIES = {
     "sphereInBoxCurves": ("a sphere settles on the floor (ten Cate 2002)", "drag, added mass"),
     "particlesInTwoLiquids": ("particles in glycerol and in water", "Stokes' drag"),
     "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
+    "gasBed": ("a bed that air fluidises (van Wachem et al. 2001)", "Beetstra's drag, one friction"),
     "slotHopper": ("plastic spheres and cylinders through a slot (digitised)", "spheres of the cylinders' volume"),
     "paperRates": ("the published hopper's two rates, with corrections as known earlier", "one friction"),
 }
