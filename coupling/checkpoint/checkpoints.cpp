@@ -803,7 +803,8 @@ void Checkpoints::complete(DemEngine& engine) const
     if (!problem.empty())
     {
         FatalErrorInFunction << "The checkpoint of time " << timeName << " could not be written: " << problem.c_str()
-                             << "\nThe same command resumes from the previous checkpoint" << exit(FatalError);
+                             << "\nWith `startFrom latestTime` the same command resumes from the previous checkpoint"
+                             << exit(FatalError);
     }
     if (Pstream::master() && time_.controlDict().getOrDefault<label>("purgeWrite", 0) > 0)
     {

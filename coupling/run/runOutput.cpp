@@ -291,8 +291,8 @@ void RunOutput::requireTablesWritten() const
     const std::string failure = firstWriteFailure();
     if (!failure.empty())
     {
-        FatalErrorInFunction << failure.c_str() << ". The same command resumes from the last checkpoint"
-                             << exit(FatalError);
+        FatalErrorInFunction << failure.c_str() << ". With `startFrom latestTime` the same command resumes "
+                             << "from the last checkpoint" << exit(FatalError);
     }
 }
 
@@ -301,8 +301,8 @@ void RunOutput::writeCheckpoint()
     if (!time_.write())
     {
         FatalErrorInFunction << "The fields of time " << time_.timeName() << " could not be written to "
-                             << time_.timePath() << ": is the disk full? The same command resumes from the previous "
-                             << "checkpoint" << exit(FatalError);
+                             << time_.timePath() << ": is the disk full? With `startFrom latestTime` the same command "
+                             << "resumes from the previous checkpoint" << exit(FatalError);
     }
     requireTablesWritten();
     checkpoints_.complete(engine_);

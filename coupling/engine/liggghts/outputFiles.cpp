@@ -151,7 +151,7 @@ void OutputFiles::requireWritten()
     }
     if (!failure_.empty())
     {
-        throw FileError(failure_ + "\nThe same command resumes from the last checkpoint");
+        throw FileError(failure_ + "\nWith `startFrom latestTime` the same command resumes from the last checkpoint");
     }
 }
 
