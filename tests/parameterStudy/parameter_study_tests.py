@@ -157,6 +157,27 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
             outcome.stdout + outcome.stderr,
         )
 
+    def test_what_is_done_with_other_parameters_is_refused(self) -> None:
+        """All are done; then the run, or the filling alone, gets another value. A runner that trusted its marks would
+        leave the results of the earlier one and end with status 0."""
+        settings: dict[str, Any] = {"case": str(Path(__file__).parent / "surrogate"), "steps": ["dry"], "packings": [1]}
+        self.write(runs={"mu": {"parameters": {"friction": 0.2}}}, **settings)
+        self.assertEqual(self.call("run").returncode, 0)
+        for entry, name in (
+            ({"parameters": {"friction": 0.3}}, "friction"),
+            ({"parameters": {"friction": 0.2}, "filling": {"friction": 0.2}}, "those of its filling"),
+        ):
+            self.write(runs={"mu": entry}, **settings)
+            outcome = self.call("run")
+            self.assertEqual(outcome.returncode, 2, outcome.stdout + outcome.stderr)
+            self.assertIn("runs/mu.1.dry was begun with other parameters than the parameter study's", outcome.stderr)
+            self.assertIn(f"({name}); remove that folder to begin again", outcome.stderr)
+            self.assertNotIn("mu.1.dry  done", self.call("status").stdout)
+        shutil.rmtree(self.folder / "work/runs/mu.1.dry")
+        self.assertEqual(self.call("run").returncode, 0)
+        record = json.loads((self.folder / "results" / "mu.1.dry.json").read_text())
+        self.assertEqual(record["packing"]["otherParameters"], {})
+
     def test_a_run_that_is_to_last_longer_goes_on(self) -> None:
         """All are done, then the end time is raised: each run goes on from its end, and its table has every row once. A
         runner that trusted its marks would start none of them; one that began again would have the first rows twice."""
@@ -214,12 +235,12 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.write(case=str(Path(__file__).parent / "surrogate"), steps=["dry"], packings=[1, 2], runs={"one": {}})
         earlier = self.folder / "results" / "one.1.dry.json"
         earlier.parent.mkdir()
-        earlier.write_text("earlier")
+        earlier.write_text('{"parameters": {"seed": 1, "another": 2}}')
         self.assertNotIn("one.1.dry", self.call("status", "--missing").stdout)
         self.assertEqual(self.call("run", "--missing").returncode, 0)
         self.assertEqual([path.name for path in self.work("runs/*")], ["one.2.dry"])
         self.assertEqual(len(self.work("shared/filling-*")), 1)
-        self.assertEqual(earlier.read_text(), "earlier")
+        self.assertEqual(earlier.read_text(), '{"parameters": {"seed": 1, "another": 2}}')
         outcome = self.call("run", "--missing")
         self.assertEqual((outcome.returncode, outcome.stdout), (0, "parameterStudy: every run has its results\n"))
         self.assertEqual(self.call("run").returncode, 0)

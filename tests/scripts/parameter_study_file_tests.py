@@ -16,6 +16,7 @@ import yaml
 
 from clepsydra import parameter_study_results, whole_files
 from clepsydra.parameter_studies import executors, task
+from clepsydra.parameter_studies.command import copy_program
 from clepsydra.parameter_studies.plan import ParameterStudy
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -147,6 +148,59 @@ class MistakenFiles(ParameterStudyFile):
                 self.assertIn(words, self.refused(command))
             self.assertFalse((self.folder / "work").exists())
 
+    def test_an_empty_list_is_no_list_of_runs(self) -> None:
+        """It makes no run: the command would say that every run has its results, and end with status 0."""
+        wrong: list[tuple[dict[str, Any], str]] = [
+            ({"runs": {"mu": {"sweep": {"friction": []}}}}, "runs/mu/sweep/friction"),
+            ({"runs": {"mu": {"packings": []}}}, "runs/mu/packings"),
+            ({"runs": {"mu": {"steps": []}}}, "runs/mu/steps"),
+            ({"packings": []}, "packings"),
+            ({"steps": []}, "steps"),
+        ]
+        for settings, entry in wrong:
+            self.write(**settings)
+            for command in ("check", "run"):
+                self.assertIn(f"entry '{entry}' is []; allowed: a value, or a list of one", self.refused(command))
+
+    def hoppers(self, **settings: Any) -> None:
+        self.write(case=str(REPOSITORY / "cases/tutorials/hopperQuick"), packings=[100003], **settings)
+
+    def counts(self, part: str) -> list[float]:
+        parameter_study = self.parameter_study()
+        tasks = [task for task in parameter_study.tasks.values() if task.part == part]
+        return sorted(parameter_study.parameters(task)["particleCount"] for task in tasks)
+
+    def test_a_runs_own_parameter_replaces_a_derived_one_of_all(self) -> None:
+        """fillMass sets particleCount, 94 for 1 g. Computed whatever else is there, it would make equal runs of
+        different names; a later fillMass replaces an earlier particleCount, too, also that of another file."""
+        self.hoppers(parameters={"fillMass": 1e-3}, runs={"one": {}, "n": {"sweep": {"particleCount": [100, 200]}}})
+        self.assertEqual(self.counts("dry"), [94, 100, 200])
+        self.assertEqual(self.counts("filling"), [94, 100, 200])
+        (self.folder / "test.yaml").rename(self.folder / "base.yaml")
+        (self.folder / "test.yaml").write_text("base: base.yaml\nparameters: {particleCount: 300}\nruns: {one: {}}\n")
+        self.assertEqual(self.counts("dry"), [300])
+        self.hoppers(parameters={"particleCount": 300}, runs={"one": {"parameters": {"fillMass": 1e-3}}})
+        self.assertEqual(self.counts("dry"), [94])
+
+    def test_a_parameter_and_the_one_that_sets_it_are_not_given_together(self) -> None:
+        both: dict[str, Any] = {"fillMass": 1e-3, "particleCount": 100}
+        words = "is 'fillMass, particleCount'; allowed: one of them: each sets particleCount"
+        self.hoppers(parameters=both, runs={"one": {}})
+        self.assertIn(f"entry 'parameters' {words}", self.refused())
+        self.hoppers(runs={"one": {"sweep": both}})
+        self.assertIn(f"entry 'runs/one/sweep' {words}", self.refused())
+
+    def test_parameters_of_the_filling_count_or_are_refused(self) -> None:
+        """A name from which a parameter is derived was dropped, and so was what the filling does not depend on."""
+        self.hoppers(runs={"one": {"filling": {"fillMass": 1e-3}}})
+        self.assertEqual(self.counts("filling"), [94])
+        self.hoppers(runs={"one": {"filling": {"fluidDensity": 900}}})
+        self.assertRegex(
+            self.refused(),
+            "entry 'runs/one/filling' is 'fluidDensity'; allowed: the parameters on which the template's filling "
+            "depends, which are particleDiameter, .*, fillMass",
+        )
+
     def test_machines_of_slurm_are_not_this_one(self) -> None:
         """More ranks than this machine can bear are refused here, and are none of its business where Slurm places
         them."""
@@ -172,7 +226,7 @@ class Archive(ParameterStudyFile):
     def publish(self, name: str, mass: float) -> None:
         results = self.folder / "results"
         results.mkdir(exist_ok=True)
-        inputs = {"run": name, "step": "dry", "seed": 1, "parameters": {}, "cost": {}}
+        inputs = {"run": name, "step": "dry", "seed": 1, "parameters": {"seed": 1}, "cost": {}}
         (results / f"{name}.json").write_text(json.dumps(inputs))
         (results / f"{name}.csv").write_text(f"time [s],mass [kg],particles [-]\n0,{mass},1\n")
 
@@ -199,6 +253,41 @@ class Archive(ParameterStudyFile):
             self.call("archive")
             archives.append((self.folder / "results.zip").read_bytes())
         self.assertEqual(archives[0], archives[1])
+
+    def test_results_of_other_parameters_are_missing(self) -> None:
+        """By name they are there. An entry that only the template has may be another by now."""
+        self.write(runs={"one": {}})
+        self.publish("one.1.dry", 1.0)
+        self.assertIn("every run has its results", self.call("status", "--missing").stdout)
+        self.write(runs={"one": {"parameters": {"friction": 0.3}}})
+        said = self.call("status", "--missing").stdout
+        self.assertIn("results/one.1.dry.json is of other parameters (friction): its run is one of the missing", said)
+        self.assertRegex(said, r"one\.1\.dry +waiting")
+
+    def test_what_is_no_json_of_a_run_is_named(self) -> None:
+        self.write()
+        self.publish("one.1.dry", 1.0)
+        for text in ("no JSON", "[]", '{"parameters": 1}'):
+            (self.folder / "results/one.1.dry.json").write_text(text)
+            outcome = self.call("status", "--missing")
+            self.assertEqual(outcome.returncode, 2, outcome.stderr)
+            self.assertIn("results/one.1.dry.json: no dictionary 'parameters' in it; allowed: ", outcome.stderr)
+
+
+class Program(ParameterStudyFile):
+    def test_libraries_in_folders_are_copied_with_the_program(self) -> None:
+        """lib/openfoam has the library without which OpenFOAM decomposes by a stub; what is no library stays."""
+        self.write(case=str(SURROGATE))
+        for name in ("bin/pimpleDemFoam", "lib/libcoupling.so", "lib/libtests.a", "lib/openfoam/libscotchDecomp.so"):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).touch()
+        with mock.patch.dict(os.environ, {"CLEPSYDRA_BUILD": str(self.folder)}):
+            copy_program(self.parameter_study())
+        program = self.folder / "work/program"
+        self.assertEqual(
+            sorted(str(path.relative_to(program)) for path in program.rglob("*") if path.is_file()),
+            ["bin/pimpleDemFoam", "lib/libcoupling.so", "lib/openfoam/libscotchDecomp.so"],
+        )
 
 
 class Shell(ParameterStudyFile):

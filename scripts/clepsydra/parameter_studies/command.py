@@ -18,6 +18,7 @@ import os
 import shutil
 import signal
 import sys
+from pathlib import Path
 from typing import Iterator
 
 from clepsydra import environment, parameter_study_results, whole_files
@@ -87,6 +88,8 @@ def run(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     if not parameter_study.tasks:
         print("parameterStudy: every run has its results")
         return 0
+    require_same_parameters(parameter_study)
+    say_outdated(parameter_study)
     warn(parameter_study.check(options.executor))
     copy_program(parameter_study)
     copy_template(parameter_study)
@@ -124,6 +127,21 @@ def check(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     return 0
 
 
+def require_same_parameters(parameter_study: ParameterStudy) -> None:
+    problems = [
+        task.begun_as_another(parameter_study, its)
+        for its in parameter_study.tasks.values()
+        if not task.is_done(parameter_study, its)
+    ]
+    if any(problems):
+        raise ParameterStudyError("\n".join(filter(None, problems)))
+
+
+def say_outdated(parameter_study: ParameterStudy) -> None:
+    for path, names in parameter_study.outdated.items():
+        print(f"parameterStudy: {path} is of other parameters ({', '.join(names)}): its run is one of the missing")
+
+
 def warn(known: dict[str, Findings]) -> None:
     for warning in dict.fromkeys(f"{warning}" for found in known.values() for warning in found.warnings):
         print(f"parameterStudy: {warning} (a warning)", file=sys.stderr)
@@ -142,9 +160,13 @@ def copy_program(parameter_study: ParameterStudy) -> None:
     shutil.rmtree(unfinished, ignore_errors=True)
     (unfinished / "bin").mkdir(parents=True)
     shutil.copy2(build / "bin" / "pimpleDemFoam", unfinished / "bin")
-    shutil.copytree(build / "lib", unfinished / "lib", ignore=lambda _, names: [n for n in names if ".so" not in n])
+    shutil.copytree(build / "lib", unfinished / "lib", ignore=no_libraries)
     whole_files.settle_tree(unfinished)
     unfinished.rename(target)
+
+
+def no_libraries(folder: str, names: list[str]) -> list[str]:
+    return [name for name in names if ".so" not in name and not Path(folder, name).is_dir()]
 
 
 def copy_template(parameter_study: ParameterStudy) -> None:
@@ -174,6 +196,7 @@ def sole_runner(parameter_study: ParameterStudy) -> Iterator[None]:
 
 
 def show_status(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
+    say_outdated(parameter_study)
     print(
         "\n".join(status.table(parameter_study, options.cores))
         if parameter_study.tasks

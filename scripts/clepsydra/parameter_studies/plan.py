@@ -7,6 +7,7 @@ parameters replaced. What runs have in common (the mesh, the packing) is a task 
 import dataclasses
 import hashlib
 import itertools
+import json
 import re
 from dataclasses import dataclass
 from math import pi
@@ -60,6 +61,8 @@ class ParameterStudy:
 
     def __init__(self, path: Path | str, only: list[str] | None = None, missing: bool = False) -> None:
         self.path = Path(path).resolve()
+        # {file of results: names of the parameters that are others now}; only where `missing` looks at them
+        self.outdated: dict[str, list[str]] = {}
         try:
             self._read(only)
             if missing:
@@ -69,16 +72,17 @@ class ParameterStudy:
 
     def _read(self, only: list[str] | None) -> None:
         self.settings = read_yaml(self.path, PARAMETER_STUDY_ENTRIES, required=())
+        of_base = None
         if "base" in self.settings:
             base = read_yaml(self._folder("base"), PARAMETER_STUDY_ENTRIES, required=())
-            parameters = {**base.get("parameters", {}), **self.settings.get("parameters", {})}
+            of_base = base.get("parameters")
             # paths are relative to the file that has them
             base |= {
                 name: str(found(base[name], self._folder("base").parent))
                 for name in ("case", "work", "results")
                 if name in base
             }
-            self.settings = {**base, **self.settings, "parameters": parameters}
+            self.settings = {**base, **self.settings}
         for name in ("case", "steps", "runs"):
             if name not in self.settings:
                 raise ParameterStudyError(f"{self.path}: entry '{name}' is missing")
@@ -93,7 +97,9 @@ class ParameterStudy:
         )
         self.derived = self.template.get("derived", {})
         self.defaults = parameter_file.parameters(self.case / "parameters")
-        self.given = self._overrides(self.settings.get("parameters"), "parameters")
+        self.given = self._together(
+            *(self._overrides(given, "parameters") for given in (of_base, self.settings.get("parameters")))
+        )
         self.common = self._derive(self.given)
         self.keep_times = self._keep_times()
         self.tasks = self._plan(only)
@@ -107,11 +113,31 @@ class ParameterStudy:
 
     def _drop_published(self) -> None:
         published = parameter_study_results.files(self.results)
-        left = [task for task in self.tasks.values() if task.publish and task.publish not in published]
+        left = []
+        for task in self.tasks.values():
+            path = published.get(task.publish)
+            changed = self._changed_since(path, task) if path else []
+            if changed:
+                self.outdated[str(path)] = changed
+            if task.publish and (changed or not path):
+                left.append(task)
         names = {task.name for task in left}
         for task in left:
             names.update(task.needs, *(self.tasks[need].needs for need in task.needs))
         self.tasks = {name: task for name, task in self.tasks.items() if name in names}
+
+    def _changed_since(self, published: parameter_study_results.File, task: Task) -> list[str]:
+        """Names of the parameters, but for how long the steps last, that the parameter study sets to other values than
+        those of published results. What it does not set is the template's, which may be another by now."""
+        try:
+            before = dict(json.loads(published.read_text())["parameters"])
+        except (ValueError, KeyError, TypeError):
+            raise ParameterStudyError(
+                f"{published}: no dictionary 'parameters' in it; allowed: the JSON of a run's results, or no such file"
+            ) from None
+        now = self.parameters(task)
+        names = [name for name, _ in task.overrides if name not in self.template["steps"].values()]
+        return [name for name in names if before.get(name) != now[name]]
 
     def parameter_text(self, task: Task) -> str:
         """The task's file `parameters`."""
@@ -176,7 +202,20 @@ class ParameterStudy:
                     name,
                     f"the template's parameters{parameter_file.meant(str(name), known)}, which are " + ", ".join(known),
                 )
+        for name in given or {}:
+            others = [other for other in given if other != name and self._sets(other) == self._sets(name)]
+            if others:
+                raise self._error(entry, ", ".join([name, *others]), f"one of them: each sets {self._sets(name)}")
         return {name: parameter_value(value) for name, value in (given or {}).items()}
+
+    def _sets(self, name: str) -> str:
+        """The parameter that a name stands for: another one where the template derives it."""
+        return self.derived.get(name, {"sets": name})["sets"]
+
+    def _together(self, *levels: dict[str, Any]) -> dict[str, Any]:
+        """For each parameter what the last level says that sets it, itself or by a name from which it is derived."""
+        latest = {self._sets(name): (name, value) for level in levels for name, value in level.items()}
+        return dict(latest.values())
 
     def _derive(self, overrides: dict[str, Any]) -> dict[str, Any]:
         """The parameters that follow from what the parameter study says in their place."""
@@ -220,16 +259,41 @@ class ParameterStudy:
             raise self._error("runs", name, "names of letters, digits and . _ + -")
         fixed = self._overrides(entry.get("parameters"), f"runs/{name}/parameters")
         of_filling = self._overrides(entry.get("filling"), f"runs/{name}/filling")
+        self._check_filling(of_filling, f"runs/{name}/filling")
         sweep = entry.get("sweep") or {}
         self._overrides(sweep, f"runs/{name}/sweep")
-        for values in itertools.product(*(as_list(values) for values in sweep.values())):
+        for values in itertools.product(
+            *(self._listed(values, f"runs/{name}/sweep/{swept}") for swept, values in sweep.items())
+        ):
             swept = dict(zip(sweep, map(parameter_value, values)))
             case = "-".join([name, *swept.values()])
-            for seed in as_list(entry.get("packings", self.settings.get("packings", [None]))):
-                overrides = self._derive({**self.given, **fixed, **swept})
+            for seed in self._of_run("packings", name, entry, [None]):
+                overrides = self._derive(self._together(self.given, fixed, swept))
                 if seed is not None:
                     overrides[self.template["seed"]] = parameter_value(seed)
                 yield from self._tasks_of_run(name, safe_name(case), entry, overrides, of_filling)
+
+    def _of_run(self, what: str, name: str, entry: Any, default: Any = None) -> list[Any]:
+        """The list `what` of a run's entry, else that of the whole file."""
+        if what in entry:
+            return self._listed(entry[what], f"runs/{name}/{what}")
+        return self._listed(self.settings.get(what, default), what)
+
+    def _listed(self, values: Any, entry: str) -> list[Any]:
+        if values == []:
+            raise self._error(entry, values, "a value, or a list of one or more: of an empty list no run is made")
+        return as_list(values)
+
+    def _check_filling(self, of_filling: dict[str, Any], entry: str) -> None:
+        known = self.template["shared"]["filling"]["dependsOn"]
+        for name in of_filling:
+            if self._sets(name) not in known:
+                allowed = [*known, *(other for other in self.derived if self._sets(other) in known)]
+                raise self._error(
+                    entry,
+                    name,
+                    "the parameters on which the template's filling depends, which are " + ", ".join(allowed),
+                )
 
     def _tasks_of_run(
         self, entry_name: str, case: str, entry: Any, overrides: dict[str, Any], of_filling: Any
@@ -237,14 +301,14 @@ class ParameterStudy:
         ranks = entry.get("ranks", self.settings.get("ranks", 1))
         if not (isinstance(ranks, int) and ranks > 0):
             raise self._error("ranks", ranks, "a whole number above 0")
-        filling = self._shared("filling", {**overrides, **of_filling}, keep=of_filling)
+        filling = self._shared("filling", overrides, of_filling)
         # the packing's own mesh serves no more than to tell where the hopper is: it need not be the run's
-        filling_mesh, mesh = self._shared("mesh", dict(filling.overrides)), self._shared("mesh", overrides)
+        filling_mesh, mesh = self._shared("mesh", dict(filling.overrides), {}), self._shared("mesh", overrides, {})
         yield filling_mesh
         yield mesh
         yield with_needs(filling, self._links(filling_mesh))
         seed = self._resolved(overrides)[self.template["seed"]]
-        for step in as_list(entry.get("steps", self.settings["steps"])):
+        for step in self._of_run("steps", entry_name, entry):
             if step not in self.template["steps"] or step in self.template["shared"]:
                 allowed = [name for name in self.template["steps"] if name not in self.template["shared"]]
                 raise self._error("steps", step, ", ".join(allowed))
@@ -252,15 +316,16 @@ class ParameterStudy:
             run = Task(f"runs/{name}", step, ranks, tuple(sorted(overrides.items())), (), (), name, entry_name)
             yield with_needs(run, self._links(mesh) + self._links(filling))
 
-    def _shared(self, part: str, overrides: dict[str, Any], keep: Iterable[str] = ()) -> Task:
-        """The task of a shared part, named by the values of the parameters on which it depends."""
+    def _shared(self, part: str, overrides: dict[str, Any], own: dict[str, Any]) -> Task:
+        """The task of a shared part, named by the values of the parameters on which it depends. overrides: the run's;
+        own: those that the part alone has."""
         about = self.template["shared"][part]
-        own = {
+        of_run = {
             name: value
             for name, value in overrides.items()
-            if name in about["dependsOn"] and (name not in about.get("fixed", ()) or name in keep)
+            if name in about["dependsOn"] and name not in about.get("fixed", ())
         }
-        overrides = {**self.common, **own}
+        overrides = self._derive(self._together(self.common, of_run, own))
         values = self._resolved(overrides)
         code = hashlib.sha256(repr([(name, values[name]) for name in about["dependsOn"]]).encode()).hexdigest()[:8]
         return Task(f"shared/{part}-{code}", part, 1, tuple(sorted(overrides.items())), (), (), "", part)

@@ -54,10 +54,43 @@ def execute(parameter_study: ParameterStudy, task: Task) -> int:
 
 
 def is_done(parameter_study: ParameterStudy, task: Task) -> bool:
-    """A run is not done once it is to last longer than it did."""
+    """A run is not done once it is to last longer than it did, or to be another. A shared part has its name from all
+    that matters for it."""
     folder, end_time = parameter_study.folder(task), parameter_study.template["steps"].get(task.part)
-    return (folder / "done").exists() and (
-        end_time is None or parameter_file.parameters(folder / "parameters")[end_time] >= parameter_study.end_time(task)
+    return (
+        (folder / "done").exists()
+        and not (task.publish and begun_as_another(parameter_study, task))
+        and (
+            end_time is None
+            or parameter_file.parameters(folder / "parameters")[end_time] >= parameter_study.end_time(task)
+        )
+    )
+
+
+def begun_as_another(parameter_study: ParameterStudy, task: Task) -> str:
+    """Why the folder of an earlier attempt is not that of this task; empty where it is, or where there is none. How
+    long the steps last does not count."""
+    folder = parameter_study.folder(task)
+    if not folder.exists():
+        return ""
+    changed = [
+        name
+        for name in parameter_file.changed_names(
+            parameter_file.parameters(folder / "parameters"), parameter_study.parameters(task)
+        )
+        if name not in parameter_study.template["steps"].values()
+    ]
+    # of the filling alone: what it takes from the file's parameters, and not from the run's
+    changed = changed or [
+        f"those of its {parameter_study.tasks[maker].part}"
+        for made, maker in task.links
+        if (folder / made).is_symlink() and not os.readlink(folder / made).endswith(f"/{maker}/{made}")
+    ]
+    if not changed:
+        return ""
+    return (
+        f"{folder} was begun with other parameters than the parameter study's file has now "
+        f"({', '.join(changed)}); remove that folder to begin again, or give the run another name"
     )
 
 
@@ -84,18 +117,9 @@ def make_folder(parameter_study: ParameterStudy, task: Task) -> None:
     long the steps last."""
     folder = parameter_study.folder(task)
     if folder.exists():
-        changed = [
-            name
-            for name in parameter_file.changed_names(
-                parameter_file.parameters(folder / "parameters"), parameter_study.parameters(task)
-            )
-            if name not in parameter_study.template["steps"].values()
-        ]
-        if changed:
-            raise SystemExit(
-                f"parameterStudy: {folder} was begun with other parameters than the parameter study's file has now "
-                f"({', '.join(changed)}); remove that folder to begin again, or give the run another name"
-            )
+        problem = begun_as_another(parameter_study, task)
+        if problem:
+            raise SystemExit(f"parameterStudy: {problem}")
         return
     unfinished = folder.with_name(folder.name + ".unfinished")
     copy_case(parameter_study.case, unfinished)
