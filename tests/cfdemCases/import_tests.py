@@ -205,6 +205,11 @@ class Meanings(Folder):
         )
         self.assertIn("uniformFixedValue", (self.target / "0/U").read_text())
 
+    def test_processors_behind_a_blank_line(self) -> None:
+        """Of the script that LIGGGHTS runs alone: the blank line would be commented out, and the command stay."""
+        self.imported(self.case("packedColumn", "DEM/in.liggghts_init", "processors ", "\n  processors "))
+        self.assertRegex((self.target / "DEM/in.liggghts_init").read_text(), r"\n\n# +processors")
+
     def test_probes_look_for_our_field(self) -> None:
         said = self.imported(self.old / "packedColumn")
         self.assertIn("fields                  ( p U voidFraction );", (self.target / "system/controlDict").read_text())
@@ -371,6 +376,29 @@ class Errors(Folder):
         done = self.importing(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"', "outlet"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("inlet", done.stderr)
+
+    def test_inlets_that_are_not_converted(self) -> None:
+        """Copied, they would give the flow times the void fraction at the patch. Where 0/voidfraction is not fixed
+        they mean the same, and conditions that give no velocity are no inlets."""
+        text = (self.old / "packedColumn/CFD/0/U").read_text()
+        (table,) = re.findall(r"type            uniformFixedValue;.*?\);\n", text, re.DOTALL)[:1]
+        for kind in ("flowRateInletVelocity", "surfaceNormalFixedValue", "cylindricalInletVelocity", "mappedField"):
+            case = self.case("packedColumn", "CFD/0/U", table, f"type {kind};\n")
+            done = self.importing(case)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(f"CFD/0/U/boundaryField/inlet: {kind}: 0/voidfraction is fixed there", done.stderr)
+            self.assertIn("allowed: fixedValue, uniformFixedValue, or voidfraction zeroGradient", done.stderr)
+            self.assertFalse(self.target.exists())
+            shutil.rmtree(case)
+        case = self.case("packedColumn", "CFD/0/U", table, "type flowRateInletVelocity;\n")
+        void_fraction = case / "CFD/0/voidfraction"
+        void_fraction.write_text(void_fraction.read_text().replace("fixedValue", "zeroGradient"))
+        self.imported(case)
+        shutil.rmtree(case)
+        for kind in ("inletOutlet", "pressureInletOutletVelocity", "noSlip", "symmetryPlane", "cyclicAMI"):
+            shutil.rmtree(self.target)
+            self.imported(self.case("packedColumn", "CFD/0/U", table, f"type {kind};\n"))
+            shutil.rmtree(self.folder / "packedColumn")
 
     def test_without_is_what_the_user_says(self) -> None:
         case = self.case(

@@ -165,7 +165,7 @@ class Import:
             text = path.read_text()
             if re.search(rf"^\s*write_restart\s+\S*{re.escape(Path(restart).name)}\b", text, re.MULTILINE):
                 text = with_seeds(text, f"DEM/{path.name}", self.report)
-                self.files[f"DEM/{path.name}"] = re.sub(r"^(\s*processors\b)", r"#\1", text, flags=re.MULTILINE)
+                self.files[f"DEM/{path.name}"] = re.sub(r"^([ \t]*processors\b)", r"#\1", text, flags=re.MULTILINE)
                 self.files |= {f"DEM/{folder}": None for folder in output_folders(text)}
                 return path.name
         if not self.has(restart):

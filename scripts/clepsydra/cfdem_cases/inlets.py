@@ -10,6 +10,13 @@ from clepsydra.cfdem_cases.report import Report
 
 TERMS_OF_A_VARIABLE = 10
 FIXED = ("fixedValue", "uniformFixedValue")
+# Conditions by which no velocity through the patch is given: it follows from the cells, from the pressure, or is 0.
+NOT_GIVEN = re.compile(
+    r"zeroGradient|calculated|inletOutlet|advective|waveTransmissive|fluxCorrectedVelocity"
+    r"|pressure\w*InletOutlet\w*|pressure(Directed)?Inlet(Uniform)?Velocity"
+    r"|slip|noSlip|partialSlip|(moving|rotating|translating)WallVelocity"
+    r"|symmetry(Plane)?|empty|wedge|cyclic\w*|processor\w*"
+)
 LIBRARIES = ("libfvOptionsCFDEM.so",)  # with CFDEMcoupling's own options
 OF_THEIR_SOLVERS = ("twoPhase", "coupled", "voidfractionField", "alphaField", "alphaMin", "rhoField")
 
@@ -17,7 +24,17 @@ OF_THEIR_SOLVERS = ("twoPhase", "coupled", "voidfractionField", "alphaField", "a
 def converted(U: foam_text.Dictionary, void_fraction: foam_text.Dictionary, report: Report) -> Any:
     """Changes the patches of U, a Dictionary, whose velocity is superficial."""
     for patch, entries in U.sub("boundaryField").entries.items():
-        if not isinstance(entries, foam_text.Dictionary) or entries.text("type") not in FIXED:
+        if not isinstance(entries, foam_text.Dictionary):
+            continue
+        kind = entries.text("type", "")
+        if kind not in FIXED:
+            if not NOT_GIVEN.fullmatch(kind) and fixed_fraction(void_fraction.sub("boundaryField"), patch) is not None:
+                report.error(
+                    entries.where,
+                    kind or "type",
+                    "0/voidfraction is fixed there, so that the velocity is a superficial one, and this condition is "
+                    f"not converted; allowed: {', '.join(FIXED)}, or voidfraction zeroGradient there",
+                )
             continue
         table = velocities(entries)
         if all(part == 0 for _, velocity in table for part in velocity):
