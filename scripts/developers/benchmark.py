@@ -5,8 +5,9 @@ Usage: benchmark [--quick] [--realTime] [--repetitions N] [--json FILE] [ENTRY .
        benchmark --picture PNG --json FILE
 
 Without ENTRY, all entries are measured; with --quick all but the longest. Prints a table and, with --json, writes
-it with machine, commit, date and load; --picture draws from such a file. An entry that cannot be measured on this
-machine is skipped, with the reason. LAMMPS and Yade come with scripts/setup --with otherCodes. """
+it with machine, commit, date and load, beside what a FILE of the same machine and commit has already; --picture draws
+from such a file. An entry that cannot be measured on this machine is skipped, with the reason. LAMMPS and Yade come
+with scripts/setup --with otherCodes. """
 
 import argparse
 import json
@@ -106,6 +107,7 @@ def main() -> None:
     if options.picture:
         picture.draw(json.loads(options.json.read_text())["entries"], options.picture)
         return
+    earlier = report.earlier_entries(options.json, options) if options.json else {}
     environment.load()
     timing.real_time = options.realTime
     figures: dict[str, timing.Figure | str] = {}
@@ -120,7 +122,7 @@ def main() -> None:
             except timing.Skipped as reason:
                 figures[name] = str(reason)
             if options.json:  # after each: the benchmark may be interrupted
-                report.write(options.json, figures, options)
+                report.write(options.json, earlier, figures, options)
     print(report.table(figures))
 
 

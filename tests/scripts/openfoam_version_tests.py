@@ -190,5 +190,37 @@ class Setup(Environment):
         self.assertIn("CLEPSYDRA_BUILD", said)
 
 
+class OtherCopy(Environment):
+    """The environment of one copy of Clepsydra is sourced, and another copy is used: it has an OpenFOAM of its own."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        sourced = self.openfoam("1912", "other/.dependencies/openfoam-1912")
+        self.other = sourced["WM_PROJECT_DIR"]
+
+    def test_environment_replaces_it(self) -> None:
+        for before, after in ((self.other, "own/openfoam-1912"), ("/opt/openfoam2312", "/opt/openfoam2312")):
+            for shell in ("bash", "sh"):
+                said = subprocess.run(
+                    [shell, "-c", '. "$CLEPSYDRA/scripts/environment"; echo "$WM_PROJECT_DIR $FOAM_ETC"'],
+                    env={
+                        "PATH": os.environ["PATH"],
+                        "CLEPSYDRA": str(REPOSITORY),
+                        "CLEPSYDRA_DEPENDENCIES": "own",
+                        "WM_PROJECT_DIR": before,
+                        "FOAM_ETC": f"{before}/etc",
+                    },
+                    capture_output=True,
+                    text=True,
+                ).stdout
+                self.assertEqual(said, f"{after} {after}/etc\n")
+
+    def test_setup_does_not_take_it(self) -> None:
+        """This machine has no apt-get: where no OpenFOAM of the user's own is sourced, setup can go no further."""
+        status, said = self.setup({"WM_PROJECT_DIR": self.other})
+        self.assertNotEqual(status, 0)
+        self.assertIn("no OpenFOAM environment is sourced", said)
+
+
 if __name__ == "__main__":
     unittest.main()

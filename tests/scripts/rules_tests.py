@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 from typing import Any
 
-from clepsydra import case_rules
+from clepsydra import case_rules, parameter_file
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -119,6 +119,19 @@ class Rules(unittest.TestCase):
                 self.assertIn(
                     "entry 'particleDensity' is missing", rules.check(without, 1, "all", "parameters").problems[0]
                 )
+
+    def test_the_exit_of_a_hopper_ends_above_the_floor(self) -> None:
+        """Else the pipe below the orifice would reach through the floor of the tank, and nothing would leave it."""
+        for name in ("hopperQuick", "hopperSubmerged"):
+            case = REPOSITORY / "cases/tutorials" / name
+            text = parameter_file.with_parameters(
+                (case / "parameters").read_text(), {"tankDepth": "0.03", "landHeight": "0.029", "bevelHeight": "1e-3"}
+            )
+            problems = case_rules.Rules(case).check(text, None, "mesh", "parameters").problems
+            self.assertIn(
+                "parameters: landHeight 0.029 m and bevelHeight 0.001 m; allowed: together less than tankDepth, 0.03 m",
+                problems,
+            )
 
 
 if __name__ == "__main__":

@@ -110,6 +110,13 @@ class Surface(unittest.TestCase):
         )
         self.expect_refused("has an orifice of the area of a circle of 0.01 m; allowed: orificeDiameter 0.008 m")
 
+    def test_an_exit_below_the_floor_is_refused(self) -> None:
+        values = {"tankDepth": "0.03", "landHeight": "0.029", "bevelHeight": "1e-3", "mesher": "hopperBySnappy"}
+        self.parameters.write_text(parameter_file.with_parameters(self.parameters.read_text(), values))
+        done = subprocess.run([MESHES / "hopperBySnappy", self.parameters, self.case], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("landHeight + bevelHeight < tankDepth must hold", done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -81,6 +81,8 @@ def check(p: dict[str, Any]) -> str | None:
         return "orificeDiameter < hopperDiameter < tankDiameter must hold"
     if p["orificeDiameter"] / 2 + p["bevelHeight"] >= p["hopperDiameter"] / 2:
         return "the bevel must end within the hopper's radius: make bevelHeight smaller"
+    if p["landHeight"] + p["bevelHeight"] >= p["tankDepth"]:
+        return "landHeight + bevelHeight < tankDepth must hold: the exit ends above the tank's floor"
     if p["wallThickness"] > 0 and not p["landHeight"] + p["bevelHeight"] > 0:
         return "walls of a thickness need a plate of a thickness, landHeight + bevelHeight > 0"
     return ""

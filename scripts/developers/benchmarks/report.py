@@ -25,21 +25,35 @@ def table(figures: Any) -> str:
     return "\n".join(lines + [machine()])
 
 
-def write(file: Path, figures: Any, options: Any) -> None:
-    whole_files.write(
-        file,
-        json.dumps(
-            {
-                "machine": machine(),
-                "commit": commit(),
-                "quick": options.quick,
-                "realTime": options.realTime,
-                "entries": {name: entry(figure) for name, figure in figures.items()},
-            },
-            indent=2,
-        )
-        + "\n",
-    )
+def earlier_entries(file: Path, options: Any) -> dict[str, Any]:
+    """Those of a file that is there; SystemExit where they are not of this machine and commit, measured alike."""
+    if not file.exists():
+        return {}
+    try:
+        found = json.loads(file.read_text())
+        entries = dict(found["entries"])
+        earlier = {name: found[name] for name in conditions(options)} | {"machine": found["machine"].rsplit(", ", 2)[0]}
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise SystemExit(f"benchmark: {file} is there, and no file of results; allowed: another FILE") from None
+    for name, now in conditions(options).items():
+        if earlier[name] != now:
+            raise SystemExit(
+                f"benchmark: {file}: entry '{name}' is {earlier[name]!r}, and {now!r} now; allowed: another FILE, or "
+                "one with entries of this machine and commit, measured alike"
+            )
+    return entries
+
+
+def write(file: Path, earlier: dict[str, Any], figures: Any, options: Any) -> None:
+    """earlier: entries to keep, but for those that are measured again."""
+    entries = earlier | {name: entry(figure) for name, figure in figures.items()}
+    results = conditions(options) | {"machine": machine(), "entries": entries}
+    whole_files.write(file, json.dumps(results, indent=2) + "\n")
+
+
+def conditions(options: Any) -> dict[str, Any]:
+    """What the entries of a file have in common."""
+    return {"machine": processor(), "commit": commit(), "quick": options.quick, "realTime": options.realTime}
 
 
 def entry(figure: Any) -> dict[str, Any]:
@@ -58,6 +72,11 @@ def entry(figure: Any) -> dict[str, Any]:
 
 def machine() -> str:
     """Processor, cores, date, and how busy the machine was: above the number of cores no time is to be trusted."""
+    return f"{processor()}, {datetime.date.today()}, load {os.getloadavg()[2]:.1f} (mean of the last 15 minutes)"
+
+
+def processor() -> str:
+    """And its cores."""
     model = next(
         (
             line.split(":", 1)[1].strip()
@@ -66,7 +85,4 @@ def machine() -> str:
         ),
         platform.processor(),
     )
-    return (
-        f"{model}, {os.cpu_count()} cores, {datetime.date.today()}, "
-        f"load {os.getloadavg()[2]:.1f} (mean of the last 15 minutes)"
-    )
+    return f"{model}, {os.cpu_count()} cores"
