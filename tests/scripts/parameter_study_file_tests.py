@@ -162,6 +162,12 @@ class MistakenFiles(ParameterStudyFile):
             for command in ("check", "run"):
                 self.assertIn(f"entry '{entry}' is []; allowed: a value, or a list of one", self.refused(command))
 
+    def test_a_seed_beside_packings_is_refused(self) -> None:
+        """Each packing sets the seed: a sweep over it would make equal runs of different names."""
+        for own in ({"sweep": {"seed": [1, 2]}}, {"parameters": {"seed": 1}}):
+            self.write(packings=[100003], runs={"mu": own})
+            self.assertIn("allowed: no seed: `packings` are its values", self.refused("check"))
+
     def hoppers(self, **settings: Any) -> None:
         self.write(case=str(REPOSITORY / "cases/tutorials/hopperQuick"), packings=[100003], **settings)
 

@@ -270,6 +270,7 @@ class ParameterStudy:
             for seed in self._of_run("packings", name, entry, [None]):
                 overrides = self._derive(self._together(self.given, fixed, swept))
                 if seed is not None:
+                    self._refuse_seed(fixed | swept, f"runs/{name}")
                     overrides[self.template["seed"]] = parameter_value(seed)
                 yield from self._tasks_of_run(name, safe_name(case), entry, overrides, of_filling)
 
@@ -278,6 +279,11 @@ class ParameterStudy:
         if what in entry:
             return self._listed(entry[what], f"runs/{name}/{what}")
         return self._listed(self.settings.get(what, default), what)
+
+    def _refuse_seed(self, own: dict[str, Any], entry: str) -> None:
+        seed = self.template["seed"]
+        if seed in own:
+            raise self._error(f"{entry}, {seed}", own[seed], f"no {seed}: `packings` are its values")
 
     def _listed(self, values: Any, entry: str) -> list[Any]:
         if values == []:
