@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 #include <vector>
 
@@ -101,6 +102,9 @@ struct CouplingState
 
 static_assert(std::is_standard_layout_v<CouplingState> && sizeof(CouplingState) % sizeof(double) == 0,
     "an engine stores CouplingState as plain doubles beside the particle");
+
+/// Index of the submerged fraction among the numbers of a state, for DemEngine::requestPairs().
+constexpr std::size_t submergedFractionInState = offsetof(CouplingState, fluid.submergedFraction) / sizeof(double);
 
 /// The state as plain numbers, for DemEngine::requestState().
 inline std::vector<double> numbersOf(const CouplingState& state)

@@ -24,7 +24,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
 {
     if (models && models->forces.needs().pairReach > 0)
     {
-        engine_.requestPairs(models->forces.needs().pairReach);
+        engine_.requestPairs(models->forces.needs().pairReach, submergedFractionInState);
     }
     if (models)
     {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -69,8 +70,9 @@ public:
     virtual ~DemEngine() = default;
 
     /// Requests ParticlesView::pairs: at every step at least all pairs of particles whose surfaces are closer than
-    /// `reach` times the sum of their radii. \pre not yet initialised, reach > 0
-    virtual void requestPairs(double reach) = 0;
+    /// `reach` times the sum of their radii, and of both the number at the index `ofState` of their states.
+    /// \pre not yet initialised, reach > 0, and requestState() is called, too, with more than `ofState` numbers
+    virtual void requestPairs(double reach, std::size_t ofState) = 0;
 
     /// Requests ParticlesView::state. \pre not yet initialised
     /// \param ofNewParticle  the values of the state of a particle that is read, created or inserted

@@ -42,6 +42,8 @@ struct ParticlePairs
     ConstVectors position{nullptr, 3, 0};
     ConstVectors velocity{nullptr, 3, 0};
     ConstView<double> radius{nullptr, 0};
+    /// The number of each particle's state that DemEngine::requestPairs() named.
+    ConstView<double> ofState{nullptr, 0};
     /// 2 x number of pairs: column indices in the arrays above. Empty unless DemEngine::requestPairs() was called.
     Eigen::Map<const Eigen::Matrix2Xi> list{nullptr, 2, 0};
 };

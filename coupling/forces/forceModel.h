@@ -40,6 +40,9 @@ struct ForceNeeds
 ///     + shared.col(i)                     reaction: on the tank
 ///     + mutual.col(i)                     reaction: on another particle or a wall
 ///
+/// ParticleForces multiplies all but `mutual` by FluidAtParticle::submergedFraction; in `mutual` a model has a factor that
+/// is the same for both, so that reactions stay equal and opposite.
+///
 /// The torque on it is torqueCoefficient[i] (curl(U)/2 - omega_i); its reaction is a couple in the fluid.
 ///
 /// In model B the first two lines are divided by the void fraction; ParticleForces does this, the force models do not.

@@ -4,6 +4,8 @@
 
 #include "addToRunTimeSelectionTable.H"
 
+#include <algorithm>
+
 namespace clepsydra
 {
 
@@ -12,7 +14,7 @@ namespace
 
 /// Lubrication force: fluid that is squeezed out between two particles, or a particle and a wall, resists their
 /// approach; see closures/lubrication.h. The forces on the two are equal and opposite, and the fluid's equation
-/// receives no reaction.
+/// receives no reaction. They are multiplied by the submerged fraction, of two particles the smaller one.
 ///
 ///     lubricationForceProps
 ///     {
@@ -94,7 +96,8 @@ private:
             const Vector3d normal = apart / distance;
             const double approach = (near.velocity.col(first) - near.velocity.col(second)).dot(normal);
             const double coefficient =
-                closures::squeezeCoefficient(fluid_.viscosityAt(near.position.col(first) + 0.5 * apart),
+                std::min(near.ofState[first], near.ofState[second])
+                * closures::squeezeCoefficient(fluid_.viscosityAt(near.position.col(first) + 0.5 * apart),
                     closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_,
                     reach);
             requireStable(coefficient, particles.mass[first], sum.timeStep);
@@ -115,8 +118,10 @@ private:
         {
             const double radius = particles.radius[particle];
             const double gap = wall.distance(particles.position.col(particle)) - radius;
-            const double coefficient = closures::wallSqueezeCoefficient(
-                fluid_.viscosityAt(particles.position.col(particle)), radius, gap, roughness_, 2 * radius * wallReach_);
+            const double coefficient =
+                particles.state[particle].fluid.submergedFraction
+                * closures::wallSqueezeCoefficient(fluid_.viscosityAt(particles.position.col(particle)), radius, gap,
+                    roughness_, 2 * radius * wallReach_);
             requireStable(coefficient, particles.mass[particle], sum.timeStep);
             sum.mutual.col(particle) -= coefficient * wall.normal.dot(particles.velocity.col(particle)) * wall.normal;
         }

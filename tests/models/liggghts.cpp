@@ -99,7 +99,7 @@ public:
         std::filesystem::remove(name + ".log");
         if (pairReach > 0)
         {
-            engine_->requestPairs(pairReach);
+            engine_->requestPairs(pairReach, submergedFractionInState);
         }
         engine_->requestState(numbersOf(CouplingState()));
         engine_->initialise(forces);
@@ -881,7 +881,8 @@ TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
 
 /// Two particles 50 um apart, one on either side of the boundary between two ranks, beyond the skin of 1 um, approach by
 /// .2 mm/s: lubrication slows both alike by c v/m, and no contact force acts at that distance. A list that ends at
-/// the skin shows no force; pairs counted once per rank but applied to both particles on either show twice of it.
+/// the skin shows no force; pairs counted once per rank but applied to both particles on either show twice of it. The first
+/// particle leaves the fluid then, half of it and all: both are slowed by so much less, also where it is another rank's.
 TEST(Liggghts, LubricatesPairsAcrossRanks)
 {
     Particles particles;
@@ -902,6 +903,18 @@ TEST(Liggghts, LubricatesPairsAcrossRanks)
     const double coefficient = closures::squeezeCoefficient(1e-3, radius / 2, gap, 1e-6, 0.2 * radius);
     const double slowed = speed - particles.velocity(1).x();
     EXPECT_NEAR(slowed / (20 * engine.timeStep() * coefficient * 2 * speed / particleMass), 1, 0.01);
+    for (const double part : {0.5, 0.0})
+    {
+        const ParticlesView view = engine.particles();
+        for (Eigen::Index particle = 0; particle < view.size(); ++particle)
+        {
+            view.state[particle].fluid.submergedFraction = view.id[particle] == 1 ? part : 1;
+        }
+        engine.advance(1); // the first half of a step has the force of the last one
+        const double before = particles.velocity(1).x();
+        engine.advance(20);
+        EXPECT_NEAR((before - particles.velocity(1).x()) / slowed, part, 0.05);
+    }
     EXPECT_LT((particles.velocity(1) + particles.velocity(2)).norm(), 1e-12 * speed);
 }
 

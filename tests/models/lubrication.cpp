@@ -23,7 +23,7 @@ TEST(Lubrication, PushesApproachingParticlesApart)
     ForcesOnParticles test(
         "forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.05; }", weightlessWater);
     EXPECT_EQ(test.forces().needs().pairReach, 0.05);
-    test.engine().requestPairs(0.05);
+    test.engine().requestPairs(0.05, submergedFractionInState);
     test.engine().addParticle(1, {0, 0, 0}, radius, 2500, {0.01, 0.003, 0});
     test.engine().addParticle(2, {2.01e-3, 0, 0}, radius, 2500, {-0.01, 0.007, 0});
     test.engine().addParticle(3, {0, 2.101e-3, 0}, radius, 2500, {0, -1, 0});
@@ -92,6 +92,42 @@ TEST(Lubrication, HasAReachOfItsOwnAtWalls)
     EXPECT_THROW(ForcesOnParticles(begin + "wallReach 0; }"), Foam::IOerror);
 }
 
+/// Where there is no fluid there is no film. A wall's force is that of SlowsTheApproachToAWall times the part of the particle in
+/// the fluid; two particles have that of PushesApproachingParticlesApart times the smaller part, so that it stays equal and
+/// opposite. A particle out of the fluid may be as smooth as it likes.
+TEST(Lubrication, IsInTheFluidOnly)
+{
+    for (const double part : {0.0, 0.3})
+    {
+        ForcesOnParticles atWall("forceModels (lubricationForce); lubricationForceProps"
+                                 " { roughness 1e-6; reach 0.05; walls ( ((5 5 0.1) (0 0 2)) ); }",
+            weightlessWater);
+        atWall.engine().addParticle(1, {0, 0, 0.1 + radius + 1e-5}, radius, 2500, {0, 0, -0.01});
+        atWall.fluidAt(0).submergedFraction = part;
+        EXPECT_NEAR(2500 * sphereVolume(radius) * atWall.accelerationOf(0).z(), part * 1.698360e-5, 1e-10);
+
+        ForcesOnParticles pair(
+            "forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.05; }", weightlessWater);
+        pair.engine().requestPairs(0.05, submergedFractionInState);
+        pair.engine().addParticle(1, {0, 0, 0}, radius, 2500, {0.01, 0, 0});
+        pair.engine().addParticle(2, {2.01e-3, 0, 0}, radius, 2500, {-0.01, 0, 0});
+        pair.fluidAt(0).submergedFraction = 0.7;
+        pair.fluidAt(1).submergedFraction = part;
+        const Eigen::Matrix3Xd before = pair.engine().particles().velocity;
+        pair.engine().advance(1);
+        const Eigen::Matrix3Xd force =
+            (pair.engine().particles().velocity - before) * 2500 * sphereVolume(radius) / pair.engine().timeStep();
+        EXPECT_NEAR(force(0, 0), part * -8.482300e-6, 1e-11);
+        EXPECT_LT((force.col(0) + force.col(1)).norm(), 1e-16);
+    }
+    ForcesOnParticles smooth(
+        "forceModels (lubricationForce); lubricationForceProps { roughness 1e-9; walls ( ((0 0 0) (0 0 1)) ); }",
+        weightlessWater);
+    smooth.engine().addParticle(1, {0, 0, radius}, radius, 2500, {0, 0, -0.01});
+    smooth.fluidAt(0).submergedFraction = 0;
+    EXPECT_NO_THROW(smooth.engine().advance(1));
+}
+
 /// A step that is too long for so smooth a particle is an error with the longest step: m/c = 1.047198e-5/1.884956e-8*1e-9 =
 /// .56 us here. Left alone the particle would bounce off the squeezed film with more than it brought.
 TEST(Lubrication, RefusesAStepThatItCannotDamp)
@@ -120,7 +156,7 @@ TEST(Lubrication, RefusesAStepThatTheSmallerOfTwoParticlesCannotTake)
         const double second = 1.1 * radius - first;
         ForcesOnParticles test(
             "forceModels (lubricationForce); lubricationForceProps { roughness 1e-9; }", weightlessWater);
-        test.engine().requestPairs(0.1);
+        test.engine().requestPairs(0.1, submergedFractionInState);
         test.engine().addParticle(1, {0, 0, 0}, first);
         test.engine().addParticle(2, {1.1 * radius, 0, 0}, second);
         EXPECT_THROW(test.engine().advance(1), Foam::error) << first;

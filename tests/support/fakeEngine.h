@@ -82,9 +82,10 @@ public:
     }
 
     /// All pairs of particles of this rank, near or not.
-    void requestPairs(double) override
+    void requestPairs(double, std::size_t ofState) override
     {
         needsPairs_ = true;
+        indexInState_ = ofState;
     }
 
     /// Not heeded: every particle begins as one that has been in the fluid all along.
@@ -143,6 +144,7 @@ public:
             ConstView<double>(radius_.data(), count), ConstView<double>(mass_.data(), count), state_.data(),
             ConstVectors(weight_.data(), 3, weight_.cols()),
             ParticlePairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
+                ConstView<double>(ofState_.data(), ofState_.size()),
                 Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())},
             memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size()), insertionRamp_.data(),
             Vectors(torque_.data(), 3, torque_.cols())};
@@ -207,6 +209,11 @@ private:
     void listPairs()
     {
         const int count = needsPairs_ ? static_cast<int>(id_.size()) : 0;
+        ofState_.resize(count);
+        for (int particle = 0; particle < count; ++particle)
+        {
+            ofState_[particle] = numbersOf(state_[static_cast<std::size_t>(particle)])[indexInState_];
+        }
         pairs_.resize(2, count * (count - 1) / 2);
         Eigen::Index pair = 0;
         for (int first = 0; first < count; ++first)
@@ -240,6 +247,8 @@ private:
     std::set<int> fixedIds_;
     Eigen::Array<bool, Eigen::Dynamic, 1> held_;
     bool needsPairs_ = false;
+    std::size_t indexInState_ = 0;
+    Eigen::ArrayXd ofState_;
     Eigen::Matrix2Xi pairs_;
     Eigen::MatrixXd memory_;
 };

@@ -68,8 +68,8 @@ void FluidForceFix::addForces(double** force)
         insertionCheck_.afterStep(program_);
     }
     findFixedParticles();
-    forces_.evaluate(particles_.view(particles_.pairsRequested() ? particles_.pairs() : ParticlePairs{}, !preparing,
-                         ConstView<bool>(fixed_.data(), fixed_.size())),
+    forces_.evaluate(particles_.view(particles_.pairsRequested() ? particles_.pairsWithState() : ParticlePairs{},
+                         !preparing, ConstView<bool>(fixed_.data(), fixed_.size())),
         program_->update->dt, ofFluid);
     clearForceOnFixedParticles(ofFluid);
 }

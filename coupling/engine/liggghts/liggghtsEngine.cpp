@@ -69,9 +69,9 @@ std::vector<ScriptCommand> LiggghtsEngine::unreadProperties() const
     return clepsydra::unreadProperties(parts_->program, parts_->commands);
 }
 
-void LiggghtsEngine::requestPairs(double reach)
+void LiggghtsEngine::requestPairs(double reach, std::size_t ofState)
 {
-    parts_->particles.requestPairs(reach);
+    parts_->particles.requestPairs(reach, ofState);
 }
 
 void LiggghtsEngine::requestState(const std::vector<double>& ofNewParticle)

@@ -27,7 +27,7 @@ public:
     /// See the function of this name. Local. \pre initialised
     std::vector<ScriptCommand> unreadProperties() const;
 
-    void requestPairs(double reach) override;
+    void requestPairs(double reach, std::size_t ofState) override;
     void requestState(const std::vector<double>& ofNewParticle) override;
     void requestMemory(int numbers) override;
     void requestTemperatures(const HeatOfParticles& heat) override;

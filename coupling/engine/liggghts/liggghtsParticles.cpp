@@ -20,14 +20,14 @@ namespace clepsydra
 
 namespace lmp = LAMMPS_NS;
 
-void LiggghtsParticles::requestPairs(double reach)
+void LiggghtsParticles::requestPairs(double reach, std::size_t ofState)
 {
     if (program_->force->pair == nullptr)
     {
         throw DemEngineError("'lubricationForce' in couplingProperties acts between near particles, of which LIGGGHTS "
                              "has no list with pair_style none; allowed: pair_style gran");
     }
-    pairsRequested_ = true;
+    indexInState_ = ofState;
     // Widens the neighbour lists in addition to the skin, so that the distance which particles may move between two lists
     // is not reduced.
     program_->neighbor->register_contact_dist_factor(1 + reach);
@@ -49,6 +49,11 @@ void LiggghtsParticles::addProperties(bool resumed)
     if (!stateOfNewParticle_.empty())
     {
         state_.emplace(program_, "clepsydraState", stateOfNewParticle_, InRestartFiles::no);
+    }
+    if (pairsRequested())
+    {
+        ofState_.emplace(
+            program_, "clepsydraOfState", std::vector<double>{0}, InRestartFiles::no, ParticleProperty::OnCopies::yes);
     }
     // Particles in files that do not have the ramp are in the fluid.
     insertionRamp_.emplace(program_, "clepsydraInsertionRamp", std::vector<double>{1}, InRestartFiles::yes);
@@ -143,9 +148,22 @@ ParticlePairs LiggghtsParticles::pairs()
     lmp::Atom& atom = *program_->atom;
     const Eigen::Index count = atom.nlocal + atom.nghost;
     return ParticlePairs{ConstVectors(firstElement(atom.x), 3, count), ConstVectors(firstElement(atom.v), 3, count),
-        ConstView<double>(atom.radius, count),
+        ConstView<double>(atom.radius, count), ConstView<double>(nullptr, 0),
         Eigen::Map<const Eigen::Matrix2Xi>(
             pairList_.empty() ? nullptr : pairList_.front().data(), 2, static_cast<Eigen::Index>(pairList_.size()))};
+}
+
+ParticlePairs LiggghtsParticles::pairsWithState()
+{
+    const double* state = state_->values() + *indexInState_;
+    double* const ofState = ofState_->values();
+    for (int particle = 0; particle < program_->atom->nlocal; ++particle, state += stateOfNewParticle_.size())
+    {
+        ofState[particle] = *state;
+    }
+    ofState_->sendToCopies();
+    const ParticlePairs found = pairs();
+    return {found.position, found.velocity, found.radius, ConstView<double>(ofState, found.radius.size()), found.list};
 }
 
 std::vector<bool> LiggghtsParticles::areNew() const

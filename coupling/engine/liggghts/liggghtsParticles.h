@@ -4,6 +4,7 @@
 #include "engine/particleTemperatures.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,7 @@ public:
     {}
 
     /// As the members of DemEngine with these names.
-    void requestPairs(double reach);
+    void requestPairs(double reach, std::size_t ofState);
     void requestState(const std::vector<double>& ofNewParticle);
     void requestMemory(int numbers);
 
@@ -38,12 +39,16 @@ public:
     /// See DemEngine::unwrappedPosition().
     Vector3d unwrappedPosition(Eigen::Index particle) const;
 
-    /// LIGGGHTS' own list. It is a half list; with `newton off`, pairs across ranks are on both ranks.
+    /// LIGGGHTS' own list. It is a half list; with `newton off`, pairs across ranks are on both ranks. Without
+    /// ParticlePairs::ofState. Local.
     ParticlePairs pairs();
+
+    /// With ParticlePairs::ofState, which other ranks' particles send to their copies. Collective. \pre pairsRequested()
+    ParticlePairs pairsWithState();
 
     bool pairsRequested() const
     {
-        return pairsRequested_;
+        return indexInState_.has_value();
     }
 
     /// Which particles have been inserted since their states were last changed.
@@ -56,8 +61,10 @@ private:
     LiggghtsProgram& program_;
     std::vector<double> stateOfNewParticle_;
     int memorySize_ = 0;
-    bool pairsRequested_ = false;
+    /// Index in the states of what ParticlePairs::ofState has.
+    std::optional<std::size_t> indexInState_;
     std::optional<ParticleProperty> state_;
+    std::optional<ParticleProperty> ofState_;
     std::optional<ParticleProperty> memory_;
     std::optional<ParticleProperty> insertionRamp_;
     std::optional<HeatOfParticles> heat_;

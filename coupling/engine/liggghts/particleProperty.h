@@ -5,7 +5,7 @@
 
 namespace LAMMPS_NS
 {
-class Fix;
+class FixPropertyAtom;
 }
 
 namespace clepsydra
@@ -23,10 +23,17 @@ public:
         yes
     };
 
+    /// Whether the copies of particles on other ranks and across periodic boundaries have the numbers.
+    enum class OnCopies
+    {
+        no,
+        yes
+    };
+
     /// Adds the property to LIGGGHTS. \pre the script has run
     /// \param ofNewParticle  the numbers of a particle that is created, inserted, or read from a file without them
     ParticleProperty(LiggghtsProgram& program, const std::string& name, const std::vector<double>& ofNewParticle,
-        InRestartFiles inRestartFiles);
+        InRestartFiles inRestartFiles, OnCopies onCopies = OnCopies::no);
 
     /// A number that the script has given each particle. \pre the script has run and has it
     ParticleProperty(LiggghtsProgram& program, const std::string& name);
@@ -34,9 +41,13 @@ public:
     /// The numbers of this rank's particles, one particle after another.
     double* values() const;
 
+    /// Gives the copies, which follow the own particles in values(), the numbers of their particles. Collective.
+    /// \pre OnCopies::yes
+    void sendToCopies() const;
+
 private:
     bool isScalar_;
-    LAMMPS_NS::Fix* fix_;
+    LAMMPS_NS::FixPropertyAtom* fix_;
 };
 
 } // namespace clepsydra
