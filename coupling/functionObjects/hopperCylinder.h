@@ -20,6 +20,13 @@ public:
     /// \param upwards  direction of the axis, of any length but zero
     HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwards);
 
+    /// One whose foot and radius are known [m]. \param upwards  as above
+    HopperCylinder(const Vector3d& upwards, const Vector3d& foot, double radius)
+        : axis_(upwards.normalized()),
+          foot_(foot),
+          radius_(radius)
+    {}
+
     bool contains(const Vector3d& point) const
     {
         const Vector3d fromFoot = point - foot_;

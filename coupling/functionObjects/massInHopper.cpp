@@ -12,6 +12,8 @@
 #include "addToRunTimeSelectionTable.H"
 #include "fvMesh.H"
 
+#include <sstream>
+
 namespace clepsydra
 {
 
@@ -30,6 +32,13 @@ const word lastDepartureEntry = "timeOfLastDeparture";
 /// Times and masses alternately.
 const word samplesEntry = "samplesOfRate";
 const word rowsEntry = "rows";
+/// Patch, axis, foot and radius: the points of a mesh that moves are elsewhere in a resumed run.
+const word cylinderEntry = "cylinder";
+
+std::string textOf(const Vector3d& values)
+{
+    return exactText(values.x()) + ' ' + exactText(values.y()) + ' ' + exactText(values.z());
+}
 
 stringList textOf(const std::deque<TrailingRate::Sample>& samples)
 {
@@ -137,7 +146,7 @@ bool MassInHopper::read(const dictionary& dict)
         FatalIOErrorInFunction(dict) << "Entry 'axis' is " << axis << "; allowed: a vector that is not zero"
                                      << exit(FatalIOError);
     }
-    hopper_ = std::make_unique<HopperCylinder>(mesh_.boundaryMesh()[patch], toEigen(axis));
+    setHopper(mesh_.boundaryMesh()[patch], toEigen(axis));
 
     rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
@@ -152,6 +161,26 @@ bool MassInHopper::read(const dictionary& dict)
                                      << exit(FatalIOError);
     }
     return true;
+}
+
+void MassInHopper::setHopper(const polyPatch& wall, const Vector3d& axis)
+{
+    const stringList wallAndAxis({string(wall.name()), string(textOf(axis))});
+    stringList stored;
+    if (getProperty(cylinderEntry, stored) && stored.size() == 3 && stored[0] == wallAndAxis[0]
+        && stored[1] == wallAndAxis[1])
+    {
+        std::istringstream numbers(stored[2]);
+        Vector3d foot = Vector3d::Zero();
+        double radius = 0;
+        numbers >> foot.x() >> foot.y() >> foot.z() >> radius;
+        hopper_ = std::make_unique<HopperCylinder>(axis, foot, radius);
+        return;
+    }
+    hopper_ = std::make_unique<HopperCylinder>(wall, axis);
+    stored = wallAndAxis;
+    stored.append(string(textOf(hopper_->foot()) + ' ' + exactText(hopper_->radius())));
+    setProperty(cylinderEntry, stored);
 }
 
 bool MassInHopper::execute()

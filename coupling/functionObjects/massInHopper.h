@@ -59,6 +59,8 @@ private:
     /// Restores the state from a checkpoint, if there is one.
     /// \param rowsThatStay  number of rows in tables of earlier start times
     void resume(Foam::label rowsThatStay);
+    /// The cylinder around a wall, which stays where it was when this wall and axis were first stated. Collective.
+    void setHopper(const Foam::polyPatch& wall, const Vector3d& axis);
     void sample();
     void stopIfFlowStopped();
 

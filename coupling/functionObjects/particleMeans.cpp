@@ -31,6 +31,8 @@ namespace
 
 /// The state in checkpoints. Numbers are text, because OpenFOAM would write them with the precision of the fields.
 const word binsEntry = "bins";
+/// Whether the bins divide the box around the mesh.
+const word aroundMeshEntry = "aroundMesh";
 const word sampledTimesEntry = "sampledTimes";
 const word timeOfLastRowsEntry = "timeOfLastRows";
 const word lastRowsEntry = "lastRows";
@@ -62,6 +64,36 @@ ParticleBins binsFrom(const std::string& text)
         numbers >> number;
     }
     return {boundBox(toFoam(columns.col(0)), toFoam(columns.col(1))), columns.col(2)};
+}
+
+boundBox boxOf(const ParticleBins& bins)
+{
+    return {toFoam(bins.lowest()), toFoam(bins.highest())};
+}
+
+/// The bins that a dictionary states. \param aroundMesh  where it states no box
+ParticleBins binsOf(const dictionary& dict, const boundBox& aroundMesh)
+{
+    const Vector3d size = toEigen(dict.get<vector>("binSize"));
+    if (!(size.array() > 0).all() || !size.allFinite())
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'binSize' is " << toFoam(size) << "; allowed: three sizes > 0 [m]"
+                                     << exit(FatalIOError);
+    }
+    boundBox box = aroundMesh;
+    if (dict.readIfPresent("box", box) && !(toEigen(box.span()).array() > 0).all())
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'box' is " << box.min() << ' ' << box.max()
+                                     << "; allowed: its lowest and its highest corner, the second above the first "
+                                     << "along each axis" << exit(FatalIOError);
+    }
+    if (const double asked = ParticleBins::numberOf(box, size); asked > ParticleBins::most)
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'binSize' is " << toFoam(size) << ", which gives " << asked
+                                     << " bins in the box " << box.min() << ' ' << box.max() << "; allowed: at most "
+                                     << ParticleBins::most << " bins" << exit(FatalIOError);
+    }
+    return {box, size};
 }
 
 } // namespace
@@ -126,27 +158,11 @@ bool ParticleMeans::read(const dictionary& dict)
     writeFile::read(dict);
     requireKnownEntries(dict, functionObjectEntries({"binSize", "box"}));
 
-    const Vector3d size = toEigen(dict.get<vector>("binSize"));
-    if (!(size.array() > 0).all() || !size.allFinite())
-    {
-        FatalIOErrorInFunction(dict) << "Entry 'binSize' is " << toFoam(size) << "; allowed: three sizes > 0 [m]"
-                                     << exit(FatalIOError);
-    }
-    boundBox box(mesh_.points(), true);
-    if (dict.readIfPresent("box", box) && !(toEigen(box.span()).array() > 0).all())
-    {
-        FatalIOErrorInFunction(dict) << "Entry 'box' is " << box.min() << ' ' << box.max()
-                                     << "; allowed: its lowest and its highest corner, the second above the first "
-                                     << "along each axis" << exit(FatalIOError);
-    }
-    if (const double asked = ParticleBins::numberOf(box, size); asked > ParticleBins::most)
-    {
-        FatalIOErrorInFunction(dict) << "Entry 'binSize' is " << toFoam(size) << ", which gives " << asked
-                                     << " bins in the box " << box.min() << ' ' << box.max() << "; allowed: at most "
-                                     << ParticleBins::most << " bins" << exit(FatalIOError);
-    }
     const std::unique_ptr<ParticleBins> before = std::move(bins_);
-    bins_ = std::make_unique<ParticleBins>(box, size);
+    // The mesh may have moved since.
+    bins_ = std::make_unique<ParticleBins>(
+        binsOf(dict, before && aroundMesh_ ? boxOf(*before) : boundBox(mesh_.points(), true)));
+    aroundMesh_ = !dict.found("box");
     if (before)
     {
         requireSameBins(dict, *before);
@@ -183,18 +199,25 @@ void ParticleMeans::requireSameBins(const dictionary& dict, const ParticleBins& 
 
 void ParticleMeans::resume(const dictionary& dict)
 {
-    sums_ = Eigen::ArrayXXd::Zero(sumCount, bins_->count());
     IOobject file(name(), time_.timeName(), "uniform/functionObjects", time_, IOobject::NO_READ, IOobject::AUTO_WRITE);
     const bool isStored = hasFile<IOdictionary>(file);
     file.readOpt() = isStored ? IOobject::MUST_READ : IOobject::NO_READ;
     stored_ = std::make_unique<StoredSums>(file, *this);
+    if (isStored)
+    {
+        const ParticleBins before = binsFrom(stored_->get<string>(binsEntry));
+        if (stored_->getOrDefault<bool>(aroundMeshEntry, false))
+        {
+            *bins_ = binsOf(dict, boxOf(before));
+        }
+        requireSameBins(dict, before);
+        *bins_ = before;
+    }
+    sums_ = Eigen::ArrayXXd::Zero(sumCount, bins_->count());
     if (!isStored)
     {
         return;
     }
-    const ParticleBins before = binsFrom(stored_->get<string>(binsEntry));
-    requireSameBins(dict, before);
-    *bins_ = before;
     stored_->readEntry(sampledTimesEntry, sampledTimes_);
     stored_->readEntry(lastRowsEntry, lastRows_);
     stored_->readEntry(rowsEntry, rows_);
@@ -223,6 +246,7 @@ dictionary ParticleMeans::state() const
     }
     dictionary state;
     state.set(binsEntry, string(textOf(*bins_)));
+    state.set(aroundMeshEntry, aroundMesh_);
     state.set(sampledTimesEntry, sampledTimes_);
     state.set(timeOfLastRowsEntry, string(exactText(timeOfLastRows_)));
     state.set(lastRowsEntry, lastRows_);

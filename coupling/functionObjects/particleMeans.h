@@ -17,7 +17,7 @@ namespace clepsydra
 ///     {
 ///         type                particleMeans;
 ///         binSize             (8e-3 1 8e-3);              // [m]; a size that exceeds the box gives one bin
-///         box                 (-0.1 0 0) (0.1 0.04 0.3);  // default: the box around the mesh
+///         box                 (-0.1 0 0) (0.1 0.04 0.3);  // default: the box around the mesh at the start
 ///         timeStart           2;                          // OpenFOAM's; default: from the first time step on
 ///         executeInterval     10;                         // time steps from one sample to the next; default 1
 ///     }
@@ -69,6 +69,8 @@ private:
     Foam::dictionary state() const;
 
     std::unique_ptr<ParticleBins> bins_;
+    /// Whether they divide the box around the mesh, as it was at the first sample.
+    bool aroundMesh_ = false;
     Foam::label executeInterval_ = 1;
     /// One column per bin, over all ranks, the same on each.
     Eigen::ArrayXXd sums_;

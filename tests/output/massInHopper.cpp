@@ -63,8 +63,9 @@ const Vector3d outside(0.1, 0.5, -0.1);
 class Discharge
 {
 public:
-    explicit Discharge(TemporaryCase& temporaryCase)
-        : mesh_(boxMesh(temporaryCase.time(), {0, 0, 0}, {1, 1, 1}, {2, 2, 2})),
+    /// \param bottom  of the mesh
+    explicit Discharge(TemporaryCase& temporaryCase, double bottom = 0)
+        : mesh_(boxMesh(temporaryCase.time(), {0, 0, bottom}, {1, 1, bottom + 1}, {2, 2, 2})),
           engine_(0.01),
           observed_(*mesh_, engine_)
     {
@@ -226,39 +227,43 @@ TEST(MassInHopper, DoesNotStopBeforeTheFlowBegins)
 
 /// A run that ends at 0.1 s and goes on from there: the old curve stays up to 0.1 s, the new one has its own folder and
 /// begins there, so that every time has one row; and the last departure (0.05 s) is remembered, so that the run ends at
-/// 0.25 s though no particle leaves in it. Forgetting it, doubling the row of 0.1 s or writing into the old file fails.
+/// 0.25 s though no particle leaves in it. Forgetting it, doubling the row of 0.1 s or writing into the old file fails. Where
+/// the mesh has moved down by then, the hopper stays where it was: the five that have left are not in it again.
 TEST(MassInHopper, GoesOnAfterARestart)
 {
     const std::string entries = "stopAt endTime; deltaT 0.01; writeControl timeStep; writeInterval 10; "
                                 "runTimeModifiable no; startFrom startTime; "
                                 + functions("stopWhenFlowStops 0.2;");
-    TemporaryCase temporaryCase;
-    temporaryCase.restart(entries + "startTime 0; endTime 0.1;");
+    for (const double bottomAtResume : {0.0, -0.5})
     {
-        Discharge discharge(temporaryCase);
-        run(temporaryCase.time(), discharge, 4);
-    }
-    temporaryCase.restart(entries + "startTime 0.1; endTime 1;");
-    {
-        Discharge discharge(temporaryCase);
-        for (int particle = 0; particle <= 4; ++particle)
+        TemporaryCase temporaryCase;
+        temporaryCase.restart(entries + "startTime 0; endTime 0.1;");
         {
-            discharge.drop(particle);
+            Discharge discharge(temporaryCase);
+            run(temporaryCase.time(), discharge, 4);
         }
-        run(temporaryCase.time(), discharge, -1);
-    }
+        temporaryCase.restart(entries + "startTime 0.1; endTime 1;");
+        {
+            Discharge discharge(temporaryCase, bottomAtResume);
+            for (int particle = 0; particle <= 4; ++particle)
+            {
+                discharge.drop(particle);
+            }
+            run(temporaryCase.time(), discharge, -1);
+        }
 
-    EXPECT_NEAR(temporaryCase.time().value(), 0.26, 1e-9);
-    if (Pstream::master())
-    {
-        const std::filesystem::path folder = temporaryCase.folder() / "postProcessing/massInHopper";
-        const auto first = rows(folder / "0/massInHopper.dat");
-        ASSERT_EQ(first.size(), 10U);
-        EXPECT_NEAR(first.back().time, 0.09, 1e-9);
-        const auto second = rows(folder / "0.1/massInHopper.dat");
-        ASSERT_FALSE(second.empty());
-        EXPECT_NEAR(second.front().time, 0.1, 1e-9);
-        EXPECT_EQ(second.front().particles, 5);
+        EXPECT_NEAR(temporaryCase.time().value(), 0.26, 1e-9);
+        if (Pstream::master())
+        {
+            const std::filesystem::path folder = temporaryCase.folder() / "postProcessing/massInHopper";
+            const auto first = rows(folder / "0/massInHopper.dat");
+            ASSERT_EQ(first.size(), 10U);
+            EXPECT_NEAR(first.back().time, 0.09, 1e-9);
+            const auto second = rows(folder / "0.1/massInHopper.dat");
+            ASSERT_FALSE(second.empty());
+            EXPECT_NEAR(second.front().time, 0.1, 1e-9);
+            EXPECT_EQ(second.front().particles, 5);
+        }
     }
 }
 

@@ -428,15 +428,25 @@ TEST(MeshMotion, DISABLED_DrumTurnsWithItsMeshOrBesideIt)
 }
 
 // A run that is stopped and resumed is the run that was never stopped, with points, fluxes and particles where they were.
+// Function objects measure where they did: in bins of the box around the mesh of the start, and below the piston of the start.
 TEST(MeshMotion, IsResumedToTheLastDigit)
 {
+    const auto prepare = [](TestCase& test) {
+        pistonOverBed(test);
+        test.control()
+            .set("functions/means/type", "particleMeans")
+            .set("functions/means/binSize", "(1 1 0.01)")
+            .set("functions/below/type", "massInHopper")
+            .set("functions/below/patch", "piston")
+            .set("functions/below/axis", "(0 0 -1)");
+    };
     TestCase through;
-    pistonOverBed(through);
+    prepare(through);
     const Outcome whole = through.run();
     ASSERT_TRUE(whole.succeeded()) << whole.output;
 
     TestCase stopped;
-    pistonOverBed(stopped);
+    prepare(stopped);
     stopped.setTimes(0.03, 1e-3, 0.03);
     const Outcome first = stopped.run();
     ASSERT_TRUE(first.succeeded()) << first.output;
@@ -450,6 +460,16 @@ TEST(MeshMotion, IsResumedToTheLastDigit)
         EXPECT_TRUE(through.runCommand(TestCase::sameFile("0.06/" + std::string(file), stopped)).succeeded()) << file;
     }
     EXPECT_EQ(through.particleHistory().back().position, stopped.particleHistory().back().position);
+    for (const std::string name : {"means", "below"})
+    {
+        const auto lastRow = [&](const TestCase& test, const std::string& startTime) {
+            return test.table("postProcessing/" + name + '/' + startTime + '/' + name + ".dat").back();
+        };
+        EXPECT_EQ(lastRow(through, "0"), lastRow(stopped, "0.03")) << name;
+    }
+    const Outcome feet =
+        stopped.runCommand("grep -h 'Foot of its axis' postProcessing/below/*/below.dat | sort -u | wc -l");
+    EXPECT_EQ(feet.output, "1\n");
 }
 
 // Two ranks compute what one does, with particles and cells that pass from one to the other's box while the mesh moves.
