@@ -27,7 +27,7 @@ struct ThermalProperties
 ///     {
 ///         heatTransferModel   Gunn;
 ///         particleCp          840;    // [J/(kg K)]
-///         particleTemperature 293;    // [K], of every particle at the start or when it is inserted
+///         particleTemperature 293;    // [K], of particles that are created, inserted, or read without one
 ///     }
 struct Energy
 {

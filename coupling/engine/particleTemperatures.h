@@ -10,7 +10,7 @@ namespace clepsydra
 /// What the engine's script does not state of the particles' heat.
 struct HeatOfParticles
 {
-    /// Temperature of a particle that is read, created or inserted [K].
+    /// Temperature of a particle that is created or inserted, or read from a file without temperatures [K].
     std::optional<double> temperature;
     /// [J/(kg K)].
     std::optional<double> specificHeat;

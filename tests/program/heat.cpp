@@ -328,4 +328,33 @@ TEST(Heat, ContactsConductHeatByTheScript)
     EXPECT_NEAR(heat(test, "heatEnd"), heat(test, "heatStart"), 1e-9 * heat(test, "heatStart"));
 }
 
+/// Particles from the file of another run have its temperatures, whatever the entry states, and a warning says so. There is none
+/// where no particle has another temperature than that of the entry.
+TEST(Heat, ParticlesFromAFileKeepTheirTemperatures)
+{
+    const auto prepare = [](TestCase& test) {
+        test.setTimes(1e-3, 1e-3, 1e-3);
+        addHeat(test, 840);
+        test.dem.fixed = true;
+    };
+    TestCase first;
+    prepare(first);
+    first.dem.particles = {{0.0091, 0.01, 0.02}};
+    first.coupling().set("DEM/writeRestart", "\"DEM/end.restart\"");
+    const Outcome written = first.run();
+    ASSERT_TRUE(written.succeeded()) << written.output;
+    EXPECT_FALSE(written.says("'particleTemperature'")) << written.output;
+
+    TestCase second;
+    prepare(second);
+    second.dem.readRestart = (first.path() / "DEM/end.restart").string();
+    second.coupling().set("energy/particleTemperature", coldTemperature);
+    const Outcome read = second.run();
+    ASSERT_TRUE(read.succeeded()) << read.output;
+    EXPECT_TRUE(
+        read.says("Entry 'particleTemperature' of energy in constant/couplingProperties is 300 K, but the file"))
+        << read.output;
+    EXPECT_GT(heat(second, "heatInParticles"), 0.99 * heat(first, "heatInParticles"));
+}
+
 } // namespace clepsydra::tests

@@ -5,6 +5,7 @@
 #include "engine/liggghts/scriptFacts.h"
 
 #include <atom.h>
+#include <comm.h>
 #include <domain.h>
 #include <force.h>
 #include <lammps.h>
@@ -14,6 +15,9 @@
 #include <pair.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <sstream>
 
 namespace clepsydra
 {
@@ -63,7 +67,7 @@ void LiggghtsParticles::addProperties(bool resumed)
     }
     if (heat_)
     {
-        addTemperatures();
+        addTemperatures(resumed);
     }
 }
 
@@ -90,7 +94,7 @@ void LiggghtsParticles::requestTemperatures(const HeatOfParticles& heat)
     heat_ = heat;
 }
 
-void LiggghtsParticles::addTemperatures()
+void LiggghtsParticles::addTemperatures(bool resumed)
 {
     temperature_ = heat_->temperature ? ParticleProperty(
                        program_, temperatureName, {*heat_->temperature}, ParticleProperty::InRestartFiles::yes)
@@ -98,6 +102,34 @@ void LiggghtsParticles::addTemperatures()
     specificHeats_ = heat_->specificHeat
                          ? std::vector<double>(static_cast<std::size_t>(program_->atom->ntypes), *heat_->specificHeat)
                          : specificHeatsOf(program_);
+    if (heat_->temperature && !resumed)
+    {
+        warnOfStoredTemperatures();
+    }
+}
+
+void LiggghtsParticles::warnOfStoredTemperatures()
+{
+    const ConstView<double> here(temperature_->values(), program_->atom->nlocal);
+    // The highest one, and the lowest one with the opposite sign.
+    std::array<double, 2> extremes{-std::numeric_limits<double>::max(), -std::numeric_limits<double>::max()};
+    if (here.size() > 0)
+    {
+        extremes = {here.maxCoeff(), -here.minCoeff()};
+    }
+    MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 2, MPI_DOUBLE, MPI_MAX, program_->world);
+    const double highest = extremes[0];
+    const double lowest = -extremes[1];
+    const double asked = *heat_->temperature;
+    if (program_->comm->me == 0 && (highest > asked || lowest < asked))
+    {
+        std::ostringstream text;
+        text << "Entry 'particleTemperature' of energy in constant/couplingProperties is " << asked
+             << " K, but the file of particles that the DEM script reads has their temperatures, from " << lowest
+             << " to " << highest << " K, with which they begin; the entry is for particles that are not in the file. "
+             << "Allowed without this warning: a file that was written without 'energy'";
+        program_.warn(text.str());
+    }
 }
 
 TemperaturesView LiggghtsParticles::temperatures()

@@ -56,7 +56,9 @@ public:
 
 private:
     void addMemory(bool resumed);
-    void addTemperatures();
+    void addTemperatures(bool resumed);
+    /// Where a file of particles has other temperatures than `energy` states for all particles. Collective.
+    void warnOfStoredTemperatures();
 
     LiggghtsProgram& program_;
     std::vector<double> stateOfNewParticle_;

@@ -128,10 +128,15 @@ void LiggghtsProgram::reportWarnings(const std::string& where)
 {
     for (const std::string& warning : warnings_.take())
     {
-        if (onWarning_)
-        {
-            onWarning_(where + ": LIGGGHTS warns: " + warning);
-        }
+        warn(where + ": LIGGGHTS warns: " + warning);
+    }
+}
+
+void LiggghtsProgram::warn(const std::string& warning) const
+{
+    if (onWarning_)
+    {
+        onWarning_(warning);
     }
 }
 

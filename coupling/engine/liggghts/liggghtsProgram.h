@@ -42,6 +42,9 @@ public:
     /// \throws DemEngineError with LIGGGHTS' own message; after that the program can only end
     void execute(const std::string& command, const std::string& where, Warnings warnings = Warnings::reported);
 
+    /// Passes on a warning. \pre on the first rank
+    void warn(const std::string& warning) const;
+
     /// The command with the values of its variables, as LIGGGHTS reads it.
     std::string withVariables(const std::string& command) const;
 

@@ -34,7 +34,7 @@ struct LiggghtsSetup
     std::vector<EngineOutput> outputs;
     /// Applied in this order after each coupling step.
     std::vector<GroupChange> groupChanges;
-    /// Called on the first rank with each warning that LIGGGHTS prints, and the place in the script.
+    /// Called on the first rank with each warning: of LIGGGHTS, with the place in the script, and of the engine.
     std::function<void(const std::string&)> onWarning;
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
