@@ -108,7 +108,8 @@ void MeanPressureGradient::addTo(const ParticlesView& particles, RankTotals& tot
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const double displaced = volumeInFluid(particles, particle);
-        weight += (particles.mass[particle] - (hasBuoyancy_ ? fluid_.density * displaced : 0)) * fluid_.gravity;
+        const double massInFluid = particles.state[particle].fluid.submergedFraction * particles.mass[particle];
+        weight += (massInFluid - (hasBuoyancy_ ? fluid_.density * displaced : 0)) * fluid_.gravity;
         solidVolume += displaced;
     }
     RankNumbers ofRank;

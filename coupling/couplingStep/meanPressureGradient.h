@@ -21,10 +21,10 @@ namespace clepsydra
 ///
 ///     meanPressureGradient  balanceWeight;    // or none, or a vector [Pa/m]
 ///
-/// With `balanceWeight` it carries the weight of the particles less their buoyancy, so that particles and fluid
-/// together keep their momentum, as in a suspension that settles in a vessel with a bottom. FatalIOError where the entry
-/// is missing and gravity acts along a periodic direction: nothing would carry the weight, and particles and fluid would
-/// fall ever faster.
+/// With `balanceWeight` it carries the weight of the particles, each times its submerged fraction, less their buoyancy,
+/// so that particles and fluid together keep their momentum, as in a suspension that settles in a vessel with a bottom.
+/// FatalIOError where the entry is missing and gravity acts along a periodic direction: nothing would carry the weight,
+/// and particles and fluid would fall ever faster.
 class MeanPressureGradient
 {
 public:
