@@ -12,6 +12,7 @@
 #include "addToRunTimeSelectionTable.H"
 #include "fvMesh.H"
 
+#include <algorithm>
 #include <sstream>
 
 namespace clepsydra
@@ -26,6 +27,7 @@ namespace
 {
 
 const word countEntry = "particlesInHopper";
+const word highestIdEntry = "highestId";
 /// As text, like the samples: OpenFOAM would write numbers with the precision of the fields, and a resumed run would
 /// stop at another time and have another rate.
 const word lastDepartureEntry = "timeOfLastDeparture";
@@ -104,6 +106,7 @@ void MassInHopper::resume(label rowsThatStay)
     }
     getProperty(rowsEntry, rows_);
     getProperty(countEntry, lastParticles_);
+    getProperty(highestIdEntry, highestId_);
     const scalar lastSample = samples.back().time;
     if (isRowOfNow(time_, lastSample))
     {
@@ -211,15 +214,19 @@ void MassInHopper::sample()
     const ParticlesView particles = observed.particles();
     double massHere = 0;
     double countHere = 0;
+    double insertedHere = 0;
+    double highestIdHere = -1;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
+        highestIdHere = std::max(highestIdHere, static_cast<double>(particles.id[particle]));
         if (hopper_->contains(observed.positionInBox(particle)))
         {
             massHere += particles.mass[particle];
             ++countHere;
+            insertedHere += particles.id[particle] > highestId_ ? 1 : 0;
         }
     }
-    const RankNumbers all = RankTotals::of({{massHere, countHere}, {}});
+    const RankNumbers all = RankTotals::of({{massHere, countHere, insertedHere}, {highestIdHere}});
     const scalar mass = all.sums[0];
     const auto count = static_cast<label>(all.sums[1]);
 
@@ -229,7 +236,7 @@ void MassInHopper::sample()
        << rate_->add(now, mass) << endl;
     requireWritten(os);
 
-    if (count < lastParticles_)
+    if (count < lastParticles_ + static_cast<label>(all.sums[2]))
     {
         setProperty(lastDepartureEntry, string(exactText(now)));
     }
@@ -238,6 +245,8 @@ void MassInHopper::sample()
     setProperty(samplesEntry, textOf(rate_->samples()));
     setProperty(rowsEntry, ++rows_);
     lastParticles_ = count;
+    highestId_ = static_cast<label>(all.maxima[0]);
+    setProperty(highestIdEntry, highestId_);
     lastSample_ = now;
 }
 

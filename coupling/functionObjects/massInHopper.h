@@ -70,6 +70,8 @@ private:
     Foam::scalar stopAfter_ = 0;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::label lastParticles_ = -1;
+    /// At the last sample, over all ranks; particles with higher ids have been inserted since.
+    Foam::label highestId_ = Foam::labelMax;
     /// Number of rows in all tables since the fresh start.
     Foam::label rows_ = 0;
     bool stopping_ = false;

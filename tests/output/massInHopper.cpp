@@ -88,6 +88,14 @@ public:
         }
     }
 
+    void insert(int id)
+    {
+        if (mine(id))
+        {
+            engine_.addParticle(id, inside, radius);
+        }
+    }
+
     const Foam::fvMesh& mesh() const
     {
         return *mesh_;
@@ -213,6 +221,27 @@ TEST(MassInHopper, EndsTheRunWhenTheFlowStops)
     EXPECT_NEAR(temporaryCase.time().value(), 0.26, 1e-9);
     EXPECT_TRUE(std::filesystem::exists(std::string(temporaryCase.time().timePath())));
     EXPECT_EQ(MassInHopper::lastCount(temporaryCase.time()), 5);
+}
+
+/// One particle leaves in each step to 0.5 s, and from the second on another one is inserted, so that the number remains: the run
+/// must end just after 0.7 s. A look at the number alone ends it after 0.21 s.
+TEST(MassInHopper, SeesParticlesLeaveWhileOthersAreInserted)
+{
+    TemporaryCase temporaryCase(functions("stopWhenFlowStops 0.2;"));
+    Discharge discharge(temporaryCase);
+    for (int step = 0; temporaryCase.time().loop(); ++step)
+    {
+        if (step < 50)
+        {
+            discharge.drop(step);
+        }
+        if (step > 0 && step < 50)
+        {
+            discharge.insert(9 + step);
+        }
+    }
+    EXPECT_NEAR(temporaryCase.time().value(), 0.71, 1e-9);
+    EXPECT_EQ(MassInHopper::lastCount(temporaryCase.time()), 9);
 }
 
 TEST(MassInHopper, DoesNotStopBeforeTheFlowBegins)
