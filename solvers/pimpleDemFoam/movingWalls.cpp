@@ -3,11 +3,16 @@
 #include "vectors.h"
 
 #include "Function1.H"
+#include "PatchFunction1.H"
 #include "rotatingWallVelocityFvPatchVectorField.H"
+#include "translatingWallVelocityFvPatchVectorField.H"
+#include "uniformFixedValueFvPatchFields.H"
 #include "volFields.H"
 #include "wallFvPatch.H"
 
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <sstream>
 
 namespace clepsydra
@@ -75,30 +80,71 @@ volVectorField velocityWithWalls(const fvMesh& mesh)
     return U;
 }
 
-/// Why the velocity of a patch is not constant over the run; empty where it is.
-std::string changeInTime(const fvPatchVectorField& onPatch)
+/// Whether a condition's vector differs on a face, at one of many times to the end of the run, from what it is now. Collective.
+/// \param at  all faces' vectors at a time
+bool changes(const Time& time, const std::function<tmp<vectorField>(scalar)>& at)
 {
-    if (!isA<rotatingWallVelocityFvPatchVectorField>(onPatch))
-    {
-        return {};
-    }
-    OStringStream text;
-    onPatch.write(text);
-    const dictionary dict(IStringStream(text.str())());
-    const autoPtr<Function1<scalar>> omega(Function1<scalar>::New("omega", dict));
-    const Time& time = onPatch.db().time();
-    const scalar atStart = omega->value(time.timeOutputValue());
+    const scalar start = time.timeOutputValue();
+    const vectorField atStart(at(start));
+    scalar difference = 0;
     constexpr label samples = 100;
     for (label sample = 1; sample <= samples; ++sample)
     {
-        const scalar now =
-            time.timeOutputValue() + (time.endTime().value() - time.timeOutputValue()) * sample / scalar(samples);
-        if (mag(omega->value(now) - atStart) > velocityTolerance * mag(atStart))
-        {
-            return "its omega changes in time, that of the DEM wall does not";
-        }
+        const vectorField now(at(start + (time.endTime().value() - start) * sample / scalar(samples)));
+        difference = max(difference, gMax(mag(now - atStart)()));
     }
-    return {};
+    return difference > velocityTolerance * gMax(mag(atStart)());
+}
+
+dictionary entriesOf(const fvPatchVectorField& onPatch)
+{
+    OStringStream text;
+    onPatch.write(text);
+    return dictionary(IStringStream(text.str())());
+}
+
+/// Why the velocity of a patch is not constant over the run; empty where it is, or where this is not known. Collective.
+std::string changeInTime(const fvPatchVectorField& onPatch)
+{
+    std::string entry;
+    std::function<tmp<vectorField>(scalar)> at;
+    const dictionary entries = entriesOf(onPatch);
+    if (isA<rotatingWallVelocityFvPatchVectorField>(onPatch))
+    {
+        entry = "omega";
+        at = [omega = std::shared_ptr<Function1<scalar>>(Function1<scalar>::New(entry, entries).ptr())](
+                 scalar time) { return tmp<vectorField>::New(1, vector(omega->value(time), 0, 0)); };
+    }
+    else if (isA<translatingWallVelocityFvPatchVectorField>(onPatch))
+    {
+        entry = "U";
+        at = [velocity = std::shared_ptr<Function1<vector>>(Function1<vector>::New(entry, entries).ptr())](
+                 scalar time) { return tmp<vectorField>::New(1, velocity->value(time)); };
+    }
+    else if (isA<uniformFixedValueFvPatchVectorField>(onPatch))
+    {
+        entry = "uniformValue";
+        at = [velocity = std::shared_ptr<PatchFunction1<vector>>(
+                  PatchFunction1<vector>::New(onPatch.patch().patch(), entry, entries).ptr())](
+                 scalar time) { return velocity->value(time); };
+    }
+    return at && changes(onPatch.db().time(), at) ? "its " + entry + " changes in time, that of the DEM wall does not"
+                                                  : std::string();
+}
+
+/// Warns where it is not known whether the velocity of a patch, with which a wall moves now, is constant over the run.
+void warnWhereItMayChange(const fvPatchVectorField& onPatch, const WallMotion& wall)
+{
+    const wordList known({"fixedValue", rotatingWallVelocityFvPatchVectorField::typeName,
+        translatingWallVelocityFvPatchVectorField::typeName, uniformFixedValueFvPatchVectorField::typeName});
+    if (!known.found(onPatch.type()))
+    {
+        WarningInFunction << "Patch '" << onPatch.patch().name() << "' of 0/U now has the velocity of fix "
+                          << wall.fix.c_str() << " (" << wall.kind.c_str()
+                          << ") of the DEM script, which is constant; whether that of its condition '" << onPatch.type()
+                          << "' is constant is not checked; allowed without this warning: " << flatOutput(known)
+                          << endl;
+    }
 }
 
 /// Why a patch does not move as the wall; empty where it does. Collective.
@@ -160,6 +206,7 @@ std::string objectionTo(const WallMotion& wall, const volVectorField& U)
         const std::string difference = differenceOf(onPatch, wall.motion);
         if (difference.empty())
         {
+            warnWhereItMayChange(onPatch, wall);
             return {};
         }
         list += (list.empty() ? "" : "; ") + std::string("patch '") + onPatch.patch().name() + "': " + difference;

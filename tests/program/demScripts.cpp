@@ -192,6 +192,27 @@ TEST(DemScripts, AWallMayMoveWithItsPatch)
     slidingSides(slower, plane + "0.01", "uniform (0 0 0.009)");
     expectRefused(
         slower, {"fix belt has the word 'shear'", "patch 'walls': velocity differs by 0.001 m/s of 0.01 m/s"});
+    // The same velocity at the start; that of a table changes later, and of other conditions it is not known.
+    TestCase constant;
+    slidingSides(constant, plane + "0.01", "uniform (0 0 0.01)");
+    constant.file("0/U")
+        .set("boundaryField/walls/type", "uniformFixedValue")
+        .set("boundaryField/walls/uniformValue", "constant (0 0 0.01)");
+    expectRuns(constant);
+    TestCase faster;
+    slidingSides(faster, plane + "0.01", "uniform (0 0 0.01)");
+    faster.file("0/U")
+        .set("boundaryField/walls/type", "uniformFixedValue")
+        .set("boundaryField/walls/uniformValue", "table ((0 (0 0 0.01)) (0.001 (0 0 0.01)) (0.002 (0 0 0.02)))");
+    expectRefused(faster, {"fix belt has the word 'shear'", "patch 'walls': its uniformValue changes in time"});
+    TestCase scaled;
+    slidingSides(scaled, plane + "0.01", "uniform (0 0 0.01)");
+    scaled.file("0/U")
+        .set("boundaryField/walls/type", "scaledFixedValue")
+        .set("boundaryField/walls/scale", "constant 1")
+        .set("boundaryField/walls/refValue/type", "fixedValue")
+        .set("boundaryField/walls/refValue/value", "uniform (0 0 0.01)");
+    expectRuns(scaled, {"Patch 'walls' of 0/U now has the velocity of fix belt (shear)", "'scaledFixedValue'"});
     TestCase across;
     slidingSides(across, "fix belt all wall/gran model hertz tangential history primitive type 2 xplane 0 shear y 0.01",
         "uniform (0 0.01 0)");
