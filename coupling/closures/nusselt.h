@@ -11,8 +11,7 @@
 ///     Nu = (7 - 10 eps + 5 eps^2)(1 + 0.7 Re^0.2 Pr^(1/3)) + (1.33 - 2.40 eps + 1.20 eps^2) Re^0.7 Pr^(1/3)
 ///     Re = rho eps |U_r| d/mu
 ///
-/// Without slip both are 2 for an isolated particle, which is the exact value of conduction into fluid at rest. The
-/// solver transports no heat: the formulas are for evaluations and a user's own models.
+/// Without slip both are 2 for an isolated particle, which is the exact value of conduction into fluid at rest.
 #pragma once
 
 #include <cmath>
