@@ -15,14 +15,7 @@ struct ChainOperation
     Curve (*apply)(Curve curve, double size);
 };
 
-/// All operations by name:
-///   lag         first-order filter with a time constant of `size` seconds
-///   lead        adds size dv/dt: momentum of particles that leave, with size = their speed divided by g [s]
-///   shift       the record begins `size` seconds late
-///   gain        multiplies the value by 1 + size
-///   offset      adds size to the value, SI units
-///   drift       adds size per second since the record's first time
-///   timeFactor  multiplies the times by 1 + size
+/// All operations by name; docs/reference/study.md says what each does.
 const std::map<std::string, ChainOperation>& chainOperations();
 
 } // namespace clepsydra::identification

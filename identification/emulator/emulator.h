@@ -51,11 +51,6 @@ public:
         return degreesOfFreedom_;
     }
 
-    double lackOfFit() const
-    {
-        return lackOfFit_;
-    }
-
     const std::vector<std::string>& remarks() const
     {
         return remarks_;

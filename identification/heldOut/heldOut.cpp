@@ -498,13 +498,9 @@ private:
         }
         const Eigen::Index trained = rows.size();
         append(rows, rows_);
-        auto conditions = mapped(rows, [](const Row& row) { return row.condition; });
-        append(conditions, result_.conditions);
         const auto coordinatesOf = [&](std::size_t c) { return study_.conditions[c].coordinates; };
-        const std::size_t dimensions = coordinatesOf(conditions.front()).size();
-        if (dimensions == 0 || std::any_of(conditions.begin(), conditions.end(), [&](std::size_t c) {
-                return coordinatesOf(c).size() != dimensions;
-            }))
+        const std::size_t dimensions = coordinatesOf(rows.front().condition).size(); // that of all conditions
+        if (dimensions == 0)
         {
             return std::nullopt;
         }

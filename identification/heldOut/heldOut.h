@@ -40,28 +40,11 @@ struct HeldOutResult
     std::vector<HeldOutData> data;
 };
 
-/// Simulates the held-out conditions at the fitted settings and compares the results with the measurements.
-///
-/// Each explanation (null, most probable candidate or, without any, the nearest effect, controls) predicts all measured
-/// held-out features at once, as `predict` describes. What is taken from where:
-///     training data    mean, slopes and uncertainty of the emulator at the fitted setting, slopes of common errors from
-///                      the library, noise and declared errors of the measurements
-///     held-out mean    runs of the simulator at the fitted setting
-///     held-out slopes  finite differences of runs of the simulator, in which one parameter or amplitude is moved by its
-///                      standard deviation after the training data; sharedErrorSlopes for common errors
-///     shared           parameters (their priors), amplitudes (their independent measurement or, without one, mean and
-///                      variance of the uniform prior in their ranges), common errors, and one model error per feature
-///                      that is equal in all conditions
-///     not shared       noise of measured means, declared errors, emulator's uncertainty, scatter of the simulated means
-///     control 1        the null, with an operation of the measuring chain as if it were an effect; held-out slopes of
-///                      parameters are those of the null
-///     control 2        the null, with a Gaussian process over the coordinates for each feature as further shared
-///                      quantities
-/// All explanations are simulated with the same seeds.
-///
-/// *Better*: the effect is named, and its prediction is better than those of the null and of both controls, each by a log
-/// ratio of densities above 0 that is beyond chance at the study's level. The effect may then enter the model.
-/// *Complete*: the measurements differ from the prediction with the effect by no more than noise, at the same level.
+/// Simulates the held-out conditions at the fitted settings and compares the results with the measurements. What is
+/// shared with the training data, the two controls, and what makes an effect better or complete is described in
+/// docs/theory/statistics.md. The held-out slopes are finite differences of runs in which one parameter or amplitude is
+/// moved by its standard deviation after the training data. An amplitude that was not measured has the mean and variance
+/// of the uniform prior in its range.
 ///
 /// \param training, heldOut  measurements, by condition of the study
 HeldOutResult evaluateHeldOut(StudySimulator& studySimulator, const Library& library, const Answer& answer,

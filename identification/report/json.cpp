@@ -83,22 +83,6 @@ Json measuredJson(const Effect& effect, const EffectFinding& finding)
         {"agrees", *agrees}};
 }
 
-/// Entries or operation of an effect at an amplitude; formulas are given as text.
-Json entriesAt(const Effect& effect, double amplitude)
-{
-    Json json = Json::object();
-    if (effect.isOfChain())
-    {
-        json[effect.chainOperation] = (*effect.chainSize)({{"a", amplitude}});
-    }
-    for (const auto& [entry, formula] : effect.entries)
-    {
-        json[entry] = formula.text();
-    }
-    json.update(effect.textEntries);
-    return json;
-}
-
 Json effectsJson(const Findings& findings)
 {
     const Study& study = *findings.study;
@@ -109,15 +93,11 @@ Json effectsJson(const Findings& findings)
         const Effect& effect = study.effects[e];
         const EffectFinding& finding = answer.effects[e];
         list.push_back({{"name", effect.name}, {"meaning", effect.meaning}, {"family", effect.family},
-            {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
-            {"amplitude", finding.fit.amplitude}, {"standardError", finding.fit.sd},
+            {"inSet", finding.inSet}, {"amplitude", finding.fit.amplitude}, {"standardError", finding.fit.sd},
             {"interval95", {finding.fit.lower, finding.fit.upper}},
-            {"range", {effect.bounds.lower, effect.bounds.upper}}, {"sets", entriesAt(effect, finding.fit.amplitude)},
-            {"chiSquare", finding.chiSquare}, {"logOdds", finding.logOdds}, {"probability", finding.probability},
+            {"range", {effect.bounds.lower, effect.bounds.upper}}, {"chiSquare", finding.chiSquare},
+            {"logOdds", finding.logOdds}, {"probability", finding.probability},
             {"probabilityNeeded", finding.threshold}, {"notInSetBecause", textOrNull(finding.notInSetBecause)},
-            {"atEndOfRange", textOrNull(effect.isSwitch || !finding.known
-                                            ? ""
-                                            : endOfRange(finding.fit.amplitude, finding.fit.sd, effect.bounds))},
             {"measured", measuredJson(effect, finding)}, {"judged", finding.known},
             {"parameters", finding.known ? parametersOf(study, finding.parameters) : Json::object()},
             {"smallestDetectable", answer.visibility.detected(e)}, {"smallestNamed", answer.visibility.named(e)},
@@ -243,8 +223,7 @@ Json runsJson(const StudySimulator& studySimulator)
     return {{"used", all}, {"executed", studySimulator.effort().executed},
         {"fromCache", all - studySimulator.effort().executed}, {"seconds", studySimulator.effort().seconds},
         {"secondsOfStored", studySimulator.effort().secondsOfStored},
-        {"byPurpose", studySimulator.effort().runsByPurpose},
-        {"failed", failedRunsOf(studySimulator.study(), studySimulator.effort())}, {"failures", failures}};
+        {"byPurpose", studySimulator.effort().runsByPurpose}, {"failures", failures}};
 }
 
 Json nextJson(const Findings& findings)
@@ -268,26 +247,11 @@ Json nextJson(const Findings& findings)
     return list;
 }
 
-Json emulatorJson(const Findings& findings)
+Json emulatorJson(const Answer& answer)
 {
-    const Answer& answer = *findings.answer;
-    const Emulator& emulator = *answer.emulator;
-    Json scatter = Json::object();
-    for (std::size_t c = 0; c < findings.study->conditions.size(); ++c)
-    {
-        if (emulator[c])
-        {
-            for (const auto& [e, logs] : emulator[c]->logScatter)
-            {
-                scatter[findings.study->effects[e].name][findings.study->conditions[c].name] =
-                    numbers(logs.array().exp().matrix());
-            }
-        }
-    }
-    return {{"noiseOfARun", numbers(emulator.noise().diagonal().cwiseSqrt())},
+    return {{"noiseOfARun", numbers(answer.emulator->noise().diagonal().cwiseSqrt())},
         {"noiseOfAMeasurement", numbers(answer.layout.noise.diagonal().cwiseSqrt())},
-        {"degreesOfFreedom", answer.layout.noiseFreedom}, {"lackOfFit", emulator.lackOfFit()},
-        {"scatterTimes", scatter}};
+        {"degreesOfFreedom", answer.layout.noiseFreedom}};
 }
 
 } // namespace
@@ -322,7 +286,6 @@ Json jsonOf(const Findings& findings)
         json["nearest"]["left"] = 1.0 - shareTaken(answer, *answer.nearest);
     }
     json["pValue"] = answer.pValue;
-    json["logOdds"] = answer.logOdds;
     json["null"] = explanationJson(study, answer.null);
     json["null"]["parameterSds"] = numbers(answer.null.fits.front().covariance.diagonal().cwiseSqrt());
     json["effects"] = effectsJson(findings);
@@ -338,7 +301,7 @@ Json jsonOf(const Findings& findings)
         return std::vector<std::string>{study.effects[pair.first].name, study.effects[pair.second].name};
     });
     json["nextExperiment"] = nextJson(findings);
-    json["emulator"] = emulatorJson(findings);
+    json["emulator"] = emulatorJson(answer);
     json["runs"] = runsJson(*findings.studySimulator);
     json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.studySimulator->effort().seedsByPurpose}};
     json["assumptions"] = assumptions;

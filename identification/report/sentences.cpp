@@ -448,24 +448,4 @@ Sentences sentencesOf(const Findings& findings)
     return {part("summary", facts).front(), part("details", facts), part("next", facts), assumptions};
 }
 
-std::vector<std::string> failedRunsOf(const Study& study, const Effort& effort)
-{
-    std::map<std::pair<std::string, std::string>, std::vector<Failure>> groups;
-    for (const Failure& failure : effort.failures)
-    {
-        groups[{failure.purpose, failure.condition}].push_back(failure);
-    }
-    std::vector<std::string> sentences;
-    for (const auto& [of, failures] : groups)
-    {
-        const auto repeated =
-            std::count_if(failures.begin(), failures.end(), [](const Failure& failure) { return failure.repeated; });
-        sentences.push_back("Failed runs (" + of.first + ", condition " + of.second
-                            + "): " + std::to_string(failures.size())
-                            + "; repeated with another seed: " + std::to_string(repeated) + ". The first, of seed "
-                            + std::to_string(failures.front().seed) + ": " + fromStudy(study, failures.front().reason));
-    }
-    return sentences;
-}
-
 } // namespace clepsydra::identification

@@ -24,7 +24,4 @@ Sentences sentencesOf(const Findings& findings);
 /// Name of the effect or family that was found.
 std::string namedBy(const Study& study, const Answer& answer);
 
-/// The failed runs, by purpose and condition, and why the first of each failed.
-std::vector<std::string> failedRunsOf(const Study& study, const Effort& effort);
-
 } // namespace clepsydra::identification

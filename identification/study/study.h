@@ -205,20 +205,10 @@ inline bool acts(const Effect& effect, const Condition& condition)
     });
 }
 
-/// A common (systematic) error, which repeats do not show: the diameter of a particle that was measured once, a scale
-/// that was calibrated once, the uncertainty of a law. It is not fitted, cannot be named as a cause, and enters the
-/// covariance only.
-///
-/// The error is z times its standard deviation, where z is standard normal a priori and independent of parameters,
-/// effects, noise, model errors and all other common errors. The value of z is the same in all conditions of the error
-/// (training, held-out and candidate), features and repeats, so that repeats do not average it out. An error has one of
-/// three forms:
-///     entries        formulas in z and in the entries of the run; z = 0 gives the entries themselves
-///     chain          an operation of the measuring chain, applied after those of effects; its size is a formula in z
-///                    that gives 0 at z = 0
-///     featureErrors  standard deviation of each feature in the feature's own unit (relative for a logarithm)
-/// To first order, with g = d(feature)/dz stacked over features and conditions, each common error adds g g^T to the
-/// covariance of the measured means, including the blocks between conditions.
+/// A common (systematic) error (docs/reference/study.md), of entries, of the measuring chain or of features. It is not
+/// fitted, cannot be named as a cause, and enters the covariance only: to first order, with g = d(feature)/dz stacked
+/// over features and conditions, it adds g g^T to the covariance of the measured means, including the blocks between
+/// conditions. Its z is independent of parameters, effects, noise, model errors and all other common errors.
 struct CommonError
 {
     std::string name;
@@ -227,10 +217,10 @@ struct CommonError
     /// and the standard error of the measurement.
     std::string variable = "z";
     double unit = 1.0;
-    std::map<std::string, Expression> entries;
-    std::string chainOperation; // empty if the error is not of the measuring chain
-    std::optional<Expression> chainSize;
-    Eigen::VectorXd featureErrors; // by feature of the study; 0: no error
+    std::map<std::string, Expression> entries; // z = 0 gives the entries themselves
+    std::string chainOperation;                // applied after those of effects; empty if the error is not of the chain
+    std::optional<Expression> chainSize;       // 0 at z = 0
+    Eigen::VectorXd featureErrors; // by feature of the study, in its unit (relative for a logarithm); 0: no error
 };
 
 struct ExecutorSpecification

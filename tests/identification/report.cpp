@@ -522,28 +522,21 @@ TEST(Sentence, ComparesAMeasuredAmplitude)
     }
 }
 
-/// Failed runs of one purpose and condition are counted in one sentence, with the first one's reason.
-TEST(Sentence, CountsFailedRuns)
-{
-    const TemporaryFolder folder;
-    Effort effort;
-    effort.failures = {{"design", "dry", 7, "the step is too long", true}, {"base", "dry", 5, "no licence", false},
-        {"design", "dry", 8, "the step is far too long", false}};
-    EXPECT_THAT(failedRunsOf(linearStudy(folder, "seed"), effort),
-        ElementsAre(
-            "Failed runs (base, condition dry): 1; repeated with another seed: 0. The first, of seed 5: no licence",
-            "Failed runs (design, condition dry): 2; repeated with another seed: 1. The first, of seed 7: the step is "
-            "too "
-            "long"));
-}
-
-/// The text names the data that were left out and the runs that failed.
+/// The text names the data that were left out and each run that failed, with what became of it.
 TEST(Text, SaysWhatIsMissing)
 {
+    const auto failure = [](const char* purpose, int seed, bool isRepeated) -> nlohmann::ordered_json {
+        return {{"purpose", purpose}, {"condition", "dry"}, {"seed", seed}, {"reason", "no licence"},
+            {"repeatedWithAnotherSeed", isRepeated}};
+    };
     std::ostringstream out;
-    writeText(
-        {{"summary", "s"}, {"remarks", {"feature end is left out"}}, {"runs", {{"failed", {"2 failed runs"}}}}}, out);
-    EXPECT_THAT(out.str(), AllOf(HasSubstr("feature end is left out\n"), HasSubstr("2 failed runs\n")));
+    writeText({{"summary", "s"}, {"remarks", {"feature end is left out"}},
+                  {"runs", {{"failures", {failure("design", 10007, true), failure("base", 5, false)}}}}},
+        out);
+    EXPECT_THAT(
+        out.str(), AllOf(HasSubstr("feature end is left out\n"),
+                       HasSubstr("Failed run: design, condition dry, seed 10007; it was repeated with another seed"),
+                       HasSubstr("Failed run: base, condition dry, seed 5; it is excluded")));
 }
 
 /// Parameters with their errors before and after, and the entry that the effect sets: y = 0.04 a, a = 0.5 ± 0.1.
