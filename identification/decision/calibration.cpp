@@ -109,6 +109,18 @@ double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt1
                                effect.bounds.upper);
 }
 
+std::vector<Present> drawnAmplitudes(
+    const Study& study, const std::vector<std::size_t>& effects, const std::vector<Fit>& fits, std::mt19937_64& random)
+{
+    std::vector<Present> present;
+    for (std::size_t k = 0; k < effects.size(); ++k)
+    {
+        const Normal fitted{fits[k].amplitude, fits[k].sd};
+        present.push_back({effects[k], drawnAmplitude(study.effects[effects[k]], fitted, random)});
+    }
+    return present;
+}
+
 double largestChiSquare(const Evidence& evidence, const std::vector<Odds>& draws, std::size_t explanation, double sds)
 {
     return std::min(chiSquareLimit(draws, &Odds::chiSquares, explanation, sds), evidence.largestChiSquare(sds));

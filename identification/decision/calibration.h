@@ -72,6 +72,10 @@ Eigen::VectorXd fromPrior(const Study& study, std::mt19937_64& random);
 /// Amplitude drawn from a distribution and clipped to the effect's range; 1 for a switch.
 double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt19937_64& random);
 
+/// Effects with amplitudes drawn in this way from their fits. \param fits  by effect
+std::vector<Present> drawnAmplitudes(
+    const Study& study, const std::vector<std::size_t>& effects, const std::vector<Fit>& fits, std::mt19937_64& random);
+
 /// Finds the thresholds from synthetic data without effects, with each effect, and with an unlisted cause.
 Calibration calibrate(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
     std::mt19937_64& random);

@@ -39,18 +39,6 @@ std::vector<Evidence::Explanation> explanationsOf(const Evidence& evidence, cons
     return mapped(pairs, [&](const PairFinding& pair) { return evidence.explanationOf(pair.effects); });
 }
 
-/// Amplitudes drawn from a pair's fit, clipped to their ranges.
-std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt19937_64& random)
-{
-    std::vector<Present> present;
-    for (std::size_t k = 0; k < pair.effects.size(); ++k)
-    {
-        const Normal fitted{pair.fits[k].amplitude, pair.fits[k].sd};
-        present.push_back({pair.effects[k], drawnAmplitude(study.effects[pair.effects[k]], fitted, random)});
-    }
-    return present;
-}
-
 /// Whether the effects of two pairs are equal or variants of each other.
 bool shareName(const Study& study, const PairFinding& one, const PairFinding& other)
 {
@@ -162,7 +150,8 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
         for (int trial = 0; trial < trials; ++trial)
         {
             const Eigen::VectorXd parameters = around(pair.fits.front(), random);
-            const auto [data, judge] = replicas.draw(drawn(study, pair, random), parameters, random);
+            const auto [data, judge] =
+                replicas.draw(drawnAmplitudes(study, pair.effects, pair.fits, random), parameters, random);
             auto& ofJudge = explanations[&judge];
             if (ofJudge.empty())
             {

@@ -86,11 +86,6 @@ Eigen::MatrixXd sharedErrorSlopes(
             continue;
         }
         auto slope = slopes.col(i);
-        if (!error.featureErrors.isZero())
-        {
-            slope = error.featureErrors;
-            continue;
-        }
         const Eigen::ArrayXd above = meanAt(i, step);
         const Eigen::ArrayXd below = meanAt(i, -step);
         const Eigen::ArrayXd both = (above - below) / (2.0 * step);

@@ -3,8 +3,6 @@
 #include "emulator/settings.h"
 #include "lists.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 
@@ -16,26 +14,6 @@ namespace
 
 /// Number of runs of one explanation in one condition, each with parameters and amplitude drawn from the fit.
 constexpr int draws = 4;
-
-/// A setting drawn from the fit of an explanation.
-Setting drawn(const Study& study, const Explanation& explanation, std::mt19937_64& random)
-{
-    std::normal_distribution<double> normal;
-    Setting setting = explanation.setting;
-    const Eigen::MatrixXd& covariance = explanation.fits.front().covariance;
-    if (covariance.size() > 0)
-    {
-        const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(covariance.rows(), [&] { return normal(random); });
-        setting.parameters = physical(study, inSds(study, setting.parameters) + covariance.llt().matrixL() * z);
-    }
-    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
-    {
-        const Fit& fit = explanation.fits[k];
-        setting.amplitudes(explanation.effects[k]) =
-            drawnAmplitude(study.effects[explanation.effects[k]], {fit.amplitude, fit.sd}, random);
-    }
-    return setting;
-}
 
 } // namespace
 
@@ -91,7 +69,10 @@ std::vector<NextExperiment> nextExperiments(
             orders.reserve(draws);
             for (int number = 0; number < draws; ++number)
             {
-                orders.push_back({condition, drawn(study, explanation, random), "next experiment, " + name, number});
+                const Eigen::VectorXd parameters = around(explanation.fits.front(), random);
+                const auto present = drawnAmplitudes(study, explanation.effects, explanation.fits, random);
+                orders.push_back(
+                    {condition, settingOf(studySimulator, parameters, present), "next experiment, " + name, number});
             }
             const auto rows = featureRows(studySimulator.run(orders), condition, study.featureCount());
             const Eigen::VectorXd mean = meanFeatures(rows);

@@ -67,7 +67,7 @@ bool isOutput(const std::string& name)
 
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
 {
-    std::string all = study.simulator.version + '\n';
+    std::string all = "\n"; // Without it, runs that are stored already would get other keys.
     std::set<fs::path> names;
     for (const auto& entry : fs::directory_iterator(caseFolder))
     {
@@ -80,10 +80,6 @@ std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
     for (const auto& path : names)
     {
         all += path.filename().string() + ' ' + sha256OfPath(path, "polyMesh") + '\n';
-    }
-    if (study.simulator.entriesFile != SimulatorSpecification().entriesFile)
-    {
-        all += study.simulator.entriesFile + '\n';
     }
     for (const auto& path : study.simulator.dependsOn)
     {
@@ -216,7 +212,7 @@ fs::path CaseSimulator::copyOf(const RunOrder& order) const
 
 Entries CaseSimulator::defaults() const
 {
-    return readEntries(caseFolder_ / study_.simulator.entriesFile);
+    return readEntries(caseFolder_ / entriesFile);
 }
 
 std::string CaseSimulator::keyOf(const RunOrder& order) const
@@ -289,7 +285,7 @@ void CaseSimulator::prepare(const RunOrder& order) const
                 fs::copy_options::recursive | fs::copy_options::copy_symlinks);
         }
     }
-    replaceEntries(folder / study_.simulator.entriesFile, order.entries);
+    replaceEntries(folder / entriesFile, order.entries);
 }
 
 /// The record is written into a folder of another name, which is renamed when it is complete. Files that other orders

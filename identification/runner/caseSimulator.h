@@ -50,7 +50,7 @@ private:
     std::filesystem::path caseFolder_;
     std::filesystem::path cache_;
     std::filesystem::path tree_;
-    std::string fingerprint_; // hash of the case's files, of its dependencies and of its version
+    std::string fingerprint_; // hash of the case's files, and of its dependencies
     std::ostream& progress_;
     std::set<std::filesystem::path> damaged_; // damaged runs that have been reported
     std::set<std::filesystem::path> madeNow_; // by this program, which does not repeat those that have failed

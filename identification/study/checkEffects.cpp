@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <stdexcept>
 
 namespace clepsydra::identification
 {
@@ -74,45 +73,6 @@ void checkFamilies(const YamlPlace& root, const Study& study)
     }
 }
 
-/// Without this check, unknown names in formulas would be found only when the first run starts.
-void checkFormulas(const YamlPlace& root, const Study& study)
-{
-    Entries all = plainEntries(study.simulator, {});
-    for (const auto& condition : study.conditions)
-    {
-        all.insert(condition.entries.begin(), condition.entries.end());
-    }
-    const Expression::Variables numbers = numbersOf(all);
-    const auto check = [&](const std::string& where, const std::map<std::string, Expression>& formulas,
-                           Expression::Variables variables, const std::string& variable, double value) {
-        variables[variable] = value;
-        for (const auto& [entry, formula] : formulas)
-        {
-            try
-            {
-                formula(variables);
-            }
-            catch (const std::invalid_argument& error)
-            {
-                root.fail(where + ", entry '" + entry + "': " + error.what());
-            }
-        }
-    };
-    for (const auto& parameter : study.parameters)
-    {
-        check("parameter '" + parameter.name + "'", parameter.entries, numbers, parameter.name, parameter.mean);
-    }
-    for (const auto& effect : study.effects)
-    {
-        check("effect '" + effect.name + "'", effect.entries, numbers, "a", effect.bounds.upper);
-        if (effect.chainSize)
-        {
-            check("effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, {}, "a",
-                effect.bounds.upper);
-        }
-    }
-}
-
 /// A parameter sets its entries after the simulator and the condition, whose values would be lost.
 void checkOverridden(const YamlPlace& root, const Study& study)
 {
@@ -142,7 +102,6 @@ void checkOverridden(const YamlPlace& root, const Study& study)
 
 void checkEffects(const YamlPlace& root, const Study& study)
 {
-    checkFormulas(root, study);
     checkOverridden(root, study);
     checkTags(root.at("conditions"), study);
     checkFamilies(root, study);

@@ -60,18 +60,6 @@ void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
     }
 }
 
-void readFeatures(const YamlPlace& place, const Study& study, CommonError& error)
-{
-    const auto names = namesOfItems(study.features);
-    for (const auto& [name, size] : place.map())
-    {
-        const auto feature = std::find(names.begin(), names.end(), name);
-        size.failIf(
-            feature == names.end(), "no such feature" + didYouMean(name, names) + "; there are " + listed(names));
-        error.featureErrors(feature - names.begin()) = size.positive();
-    }
-}
-
 /// An effect whose amplitude was measured to `sd`.
 void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
 {
@@ -98,14 +86,13 @@ void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
 
 CommonError readError(const YamlPlace& place, const Study& study)
 {
-    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features", "effect", "sd"});
+    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "effect", "sd"});
     CommonError error;
     place.textOr("meaning", ""); // for readers of the file
     error.conditions = chosenConditions(place, study);
-    error.featureErrors = Eigen::VectorXd::Zero(study.featureCount());
-    place.failIf(place.has("set") + place.has("chain") + place.has("features") + place.has("effect") != 1,
-        "needs one of 'set' (entries of the case), 'chain' (the measuring chain), 'features' (standard deviations) or "
-        "'effect' (of the library, measured with a gauge)");
+    place.failIf(place.has("set") + place.has("chain") + place.has("effect") != 1,
+        "needs one of 'set' (entries of the case), 'chain' (the measuring chain) or 'effect' (of the library, measured "
+        "with a gauge)");
     if (place.has("effect"))
     {
         readGauged(place, study, error);
@@ -114,14 +101,13 @@ CommonError readError(const YamlPlace& place, const Study& study)
     place.failIf(place.has("sd"), "has 'sd', which goes with 'effect' only");
     error.name = place.at("name").text();
     readEntries(place.optional("set"), study, error);
-    readFeatures(place.optional("features"), study, error);
     if (place.has("chain"))
     {
         std::tie(error.chainOperation, error.chainSize) = readChain(place.at("chain"));
         checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0);
     }
-    place.failIf(error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero(),
-        "changes nothing; 'set' and 'features' need at least one key");
+    place.failIf(
+        error.entries.empty() && error.chainOperation.empty(), "changes nothing; 'set' needs at least one key");
     return error;
 }
 

@@ -15,13 +15,11 @@ namespace
 
 SimulatorSpecification readSimulator(const YamlPlace& place)
 {
-    place.allow({"case", "command", "entriesFile", "set", "seed", "dependsOn", "version", "costPerRun", "timeLimit"});
+    place.allow({"case", "command", "set", "seed", "dependsOn", "costPerRun", "timeLimit"});
     SimulatorSpecification simulator;
     simulator.caseFolder = place.at("case").path();
     simulator.command = place.textOr("command", simulator.command);
-    simulator.entriesFile = place.textOr("entriesFile", simulator.entriesFile);
     simulator.seedEntry = place.at("seed").text() == "none" ? "" : place.at("seed").text();
-    simulator.version = place.textOr("version", "");
     simulator.costPerRun = place.positiveOr("costPerRun", simulator.costPerRun);
     simulator.timeLimit = place.positiveOr("timeLimit", 0.0);
     for (const auto& file : place.optional("dependsOn").oneOrMore())
@@ -29,7 +27,7 @@ SimulatorSpecification readSimulator(const YamlPlace& place)
         simulator.dependsOn.push_back(file.path());
         file.failIf(!std::filesystem::exists(file.path()), "no such file: " + file.path().string());
     }
-    const auto entries = simulator.caseFolder / simulator.entriesFile;
+    const auto entries = simulator.caseFolder / entriesFile;
     place.at("case").failIf(!std::filesystem::is_regular_file(entries), "there is no file " + entries.string());
     if (simulator.scatters())
     {
@@ -45,15 +43,6 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
     Parameter parameter;
     parameter.name = place.at("name").text();
     parameter.unit = place.textOr("unit", "");
-    for (const auto& [entry, value] : place.at("set").map())
-    {
-        requireEntry(value, entry, simulator);
-        parameter.entries.emplace(entry, readFormula(value));
-    }
-    place.at("set").failIf(std::none_of(parameter.entries.begin(), parameter.entries.end(),
-                               [&](const auto& entry) { return entry.second.holds(parameter.name); }),
-        "no formula of parameter '" + parameter.name + "' contains it; allowed is \"entry: " + parameter.name
-            + "\" or a formula with " + parameter.name);
     const YamlPlace prior = place.at("prior");
     prior.allow({"mean", "sd", "from"});
     parameter.mean = prior.at("mean").number();
@@ -67,6 +56,19 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
     std::tie(parameter.lower, parameter.upper) = place.at("range").range("[lowest, highest]");
     prior.at("mean").failIf(
         parameter.mean <= parameter.lower || parameter.mean >= parameter.upper, "must lie within the range");
+    auto variables = numbersOf(plainEntries(simulator, {}));
+    variables[parameter.name] = parameter.mean;
+    for (const auto& [entry, value] : place.at("set").map())
+    {
+        requireEntry(value, entry, simulator);
+        const Expression& formula = parameter.entries.emplace(entry, readFormula(value)).first->second;
+        // Only its names are checked: the value may be finite with the entries of the conditions alone.
+        checkedAt(value, [&] { return formula(variables); });
+    }
+    place.at("set").failIf(std::none_of(parameter.entries.begin(), parameter.entries.end(),
+                               [&](const auto& entry) { return entry.second.holds(parameter.name); }),
+        "no formula of parameter '" + parameter.name + "' contains it; allowed is \"entry: " + parameter.name
+            + "\" or a formula with " + parameter.name);
     return parameter;
 }
 
@@ -95,9 +97,10 @@ std::string objectionTo(const YamlPlace& place, const Effect& effect, const Stud
         });
         for (const auto& [entry, formula] : effect.entries)
         {
-            if (!formula.holds("a"))
+            if (!formula.holds("a")) // a setting that the effect needs, as a shorter step
             {
-                continue; // a setting that the effect needs, as a shorter step
+                valueOf(place.at("set").at(entry), formula, atZero[c]);
+                continue;
             }
             const auto own = atZero[c].find(entry);
             if (own == atZero[c].end())

@@ -32,7 +32,7 @@ std::pair<std::string, Expression> readChain(const YamlPlace& place)
 
 Entries ownEntries(const SimulatorSpecification& simulator)
 {
-    return readEntries(simulator.caseFolder / simulator.entriesFile);
+    return readEntries(simulator.caseFolder / entriesFile);
 }
 
 Entries plainEntries(const SimulatorSpecification& simulator, const Condition& condition)
@@ -55,7 +55,7 @@ void requireEntry(const YamlPlace& place, const std::string& entry, const Simula
 {
     const Entries known = ownEntries(simulator);
     place.failIf(known.count(entry) == 0, "'" + entry + "': no such entry in "
-                                              + (simulator.caseFolder / simulator.entriesFile).string()
+                                              + (simulator.caseFolder / entriesFile).string()
                                               + didYouMean(entry, namesOf(known)));
 }
 

@@ -31,16 +31,17 @@ struct Bounds
     }
 };
 
+/// File of a case with its entries.
+constexpr const char* entriesFile = "parameters";
+
 /// The simulator: a case that can be run.
 struct SimulatorSpecification
 {
     std::filesystem::path caseFolder;
     std::string command = "./Allrun";
-    std::string entriesFile = "parameters";
     Entries entries;                              // set in all runs
     std::string seedEntry;                        // entry of the seed; empty: there is none
     std::vector<std::filesystem::path> dependsOn; // files outside the case that its results depend on
-    std::string version;                          // any text; when it changes, stored runs are not used any more
     double costPerRun = 60.0;                     // estimated time of a run until one has been measured [s]
     double timeLimit = 0.0;                       // of a run [s]; 0: no limit
 
@@ -205,10 +206,10 @@ inline bool acts(const Effect& effect, const Condition& condition)
     });
 }
 
-/// A common (systematic) error (docs/reference/study.md), of entries, of the measuring chain or of features. It is not
-/// fitted, cannot be named as a cause, and enters the covariance only: to first order, with g = d(feature)/dz stacked
-/// over features and conditions, it adds g g^T to the covariance of the measured means, including the blocks between
-/// conditions. Its z is independent of parameters, effects, noise, model errors and all other common errors.
+/// A common (systematic) error (docs/reference/study.md), of entries or of the measuring chain. It is not fitted, cannot
+/// be named as a cause, and enters the covariance only: to first order, with g = d(feature)/dz stacked over features and
+/// conditions, it adds g g^T to the covariance of the measured means, including the blocks between conditions. Its z is
+/// independent of parameters, effects, noise, model errors and all other common errors.
 struct CommonError
 {
     std::string name;
@@ -220,7 +221,6 @@ struct CommonError
     std::map<std::string, Expression> entries; // z = 0 gives the entries themselves
     std::string chainOperation;                // applied after those of effects; empty if the error is not of the chain
     std::optional<Expression> chainSize;       // 0 at z = 0
-    Eigen::VectorXd featureErrors; // by feature of the study, in its unit (relative for a logarithm); 0: no error
 };
 
 struct ExecutorSpecification

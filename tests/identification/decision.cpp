@@ -24,7 +24,7 @@ namespace
 struct Bench
 {
     Study study = readStudy(std::filesystem::path(SURROGATE) / "study.yaml");
-    SurrogateSimulator simulator{readEntries(study.simulator.caseFolder / study.simulator.entriesFile)};
+    SurrogateSimulator simulator{readEntries(study.simulator.caseFolder / entriesFile)};
     StudySimulator studySimulator{study, simulator};
     Library library = makeLibrary(studySimulator);
     std::vector<MeasuredCondition> data;

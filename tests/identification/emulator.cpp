@@ -348,27 +348,25 @@ TEST(Emulator, ScatterGrowsWithTheAmplitude)
     EXPECT_NEAR(emulator[0]->logScatter.at(1)(0), 1.2, 0.3);
 }
 
-/// ln W = 3 x + ...: an error of 0.01 in x gives 0.03, a gain of 2 % gives 0.02, and errors of features are taken as
-/// stated. An effect that was measured to a tenth of its size is an error of a tenth.
+/// ln W = 3 x + ...: an error of 0.01 in x gives 0.03, and a gain of 2 % gives 0.02. An effect that was measured to a
+/// tenth of its size is an error of a tenth.
 TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
-    study.commonErrors.resize(5);
+    study.commonErrors.resize(4);
     for (auto& error : study.commonErrors)
     {
         error.conditions = {0};
-        error.featureErrors = Eigen::VectorXd::Zero(1);
     }
     study.commonErrors[0].entries.emplace("x", Expression("x + 0.01*z"));
     study.commonErrors[1].chainOperation = "gain";
     study.commonErrors[1].chainSize = Expression("0.02*z");
-    study.commonErrors[2].featureErrors(0) = 0.05;
     // Effects that were measured with a gauge, as amplitudes
-    study.commonErrors[3].entries.emplace("x", Expression("x + 0.1*a"));
-    study.commonErrors[4].chainOperation = "gain";
-    study.commonErrors[4].chainSize = Expression("0.2*a");
-    for (const std::size_t gauged : {3U, 4U})
+    study.commonErrors[2].entries.emplace("x", Expression("x + 0.1*a"));
+    study.commonErrors[3].chainOperation = "gain";
+    study.commonErrors[3].chainSize = Expression("0.2*a");
+    for (const std::size_t gauged : {2U, 3U})
     {
         study.commonErrors[gauged].variable = "a";
         study.commonErrors[gauged].unit = 0.1;
@@ -378,9 +376,8 @@ TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
     const Library library = makeLibrary(studySimulator);
     EXPECT_NEAR(library.errorSlopes[0](0, 0), 0.03, 1e-6);
     EXPECT_NEAR(library.errorSlopes[0](0, 1), 0.02, 1e-4);
-    EXPECT_EQ(library.errorSlopes[0](0, 2), 0.05);
-    EXPECT_NEAR(library.errorSlopes[0](0, 3), 0.03, 1e-6);
-    EXPECT_NEAR(library.errorSlopes[0](0, 4), 0.02, 1e-4);
+    EXPECT_NEAR(library.errorSlopes[0](0, 2), 0.03, 1e-6);
+    EXPECT_NEAR(library.errorSlopes[0](0, 3), 0.02, 1e-4);
     EXPECT_TRUE(library.errorSlopes[1].isZero()) << "the errors belong to the other condition";
 }
 
@@ -393,7 +390,6 @@ TEST(CommonErrors, FailedRunsAreNoSlopeOfZero)
     CommonError& error = study.commonErrors.emplace_back();
     error.name = "height";
     error.conditions = {0};
-    error.featureErrors = Eigen::VectorXd::Zero(1);
     error.entries.emplace("y", Expression("y + 0.01*z"));
     LinearSimulator simulator;
     StudySimulator studySimulator(study, simulator);

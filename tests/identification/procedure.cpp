@@ -332,7 +332,7 @@ TEST(Trace, TwoEffectsAtOnce)
 {
     Study study = readStudy(std::filesystem::path(SURROGATE) / "study.yaml");
     study.settings.draws = 200;
-    SurrogateSimulator simulator{readEntries(study.simulator.caseFolder / study.simulator.entriesFile)};
+    SurrogateSimulator simulator{readEntries(study.simulator.caseFolder / entriesFile)};
     StudySimulator studySimulator(study, simulator);
     const Library library = makeLibrary(studySimulator);
     const std::vector<std::size_t> truth = {effectOf(study, "addedMass"), effectOf(study, "drift")};

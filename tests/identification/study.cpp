@@ -287,7 +287,9 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"role: training", "role: traning", "study.yaml:9:", "did you mean 'training'?"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "did you mean 'amplitude'?"},
         {"set: { particleDiameter:", "set: { particleDiametre:", "study.yaml:", "did you mean 'particleDiameter'?"},
-        {"\"particleDiameter*", "\"particleDiametre*", "study.yaml:", "did you mean 'particleDiameter'?"},
+        {"\"particleDiameter*", "\"particleDiametre*", "study.yaml:13:", "did you mean 'particleDiameter'?"},
+        {"(1 + a)\"", "(1 + a)\", wall: wal", "study.yaml:13:", "set.wall: in the formula 'wal': unknown"},
+        {"friction + rough", "fricton + rough", "study.yaml:11:", "did you mean 'friction'?"},
         {"study: s", "study: s\nseed: 1\nseed: 2", "study.yaml:3:", "given twice, in line 2"},
         {"sd: 0.02", "sd: 0.02, mean: 0.2", "study.yaml:11:", "given twice"},
         {"set: { friction: 0.2 }", "set: { friction: 0.2, friction: 0.3 }", "study.yaml:9:", "given twice"},
@@ -314,9 +316,7 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:9:", "did you mean 'particleDiameter'?"},
         {"role: training", "role: training, observable: { factor: 0 }", "study.yaml:9:", "must not be 0"},
         {"value: mass", "value: mass\n  factor: 1/(friction - 0.2)", "study.yaml:6:", "no finite number"},
-        {"study: s", "study: s\ncommonErrors: [ { name: e, features: { rate: 0.1 } } ]",
-            "study.yaml:2:", "there are logMeanRate"},
-        {"study: s", "study: s\ncommonErrors: [ { name: e, features: {} } ]", "study.yaml:2:", "changes nothing"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, set: {} } ]", "study.yaml:2:", "changes nothing"},
         {"study: s", "study: s\ncommonErrors: [ { name: e } ]", "study.yaml:2:", "needs one of 'set'"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, set: { friction: 0.01*z } } ]",
             "study.yaml:2:", "must give 0.2 there"},
@@ -499,19 +499,17 @@ TEST(StudyFile, CommonErrors)
     const TemporaryFolder folder;
     const Study study = studyOf(folder,
         replaced(goodStudy, "conditions:\n", "conditions:\n  - { name: wet, role: heldOut }\n") + R"(commonErrors:
-  - { name: law, features: { logMeanRate: 0.03 } }
+  - { name: walls, set: { wall: wall + 0.1*z } }
   - { name: diameter, each: true, conditions: [dry, wet], set: { particleDiameter: "particleDiameter + 1e-5*z" } }
   - { name: calibration, conditions: dry, chain: { gain: "0.002*z" } }
 )");
     ASSERT_EQ(study.commonErrors.size(), 4U);
     EXPECT_EQ(study.commonErrors[0].conditions, (std::vector<std::size_t>{0, 1}));
-    EXPECT_EQ(study.commonErrors[0].featureErrors(0), 0.03);
     EXPECT_EQ(study.commonErrors[1].name, "diameter of dry");
     EXPECT_EQ(study.commonErrors[1].conditions, std::vector<std::size_t>{1});
     EXPECT_EQ(study.commonErrors[2].conditions, std::vector<std::size_t>{0});
     EXPECT_DOUBLE_EQ(
         study.commonErrors[2].entries.at("particleDiameter")({{"particleDiameter", 2e-3}, {"z", -1}}), 1.99e-3);
-    EXPECT_TRUE(study.commonErrors[2].featureErrors.isZero());
     EXPECT_EQ(study.commonErrors[3].chainOperation, "gain");
     EXPECT_EQ((*study.commonErrors[3].chainSize)({{"z", 2}}), 0.004);
 }

@@ -133,13 +133,13 @@ fs::path effectsFolder(const fs::path& caseFolder)
 /// \return the quantity that the case writes: mass, length, or empty if it is unknown
 std::string guessCase(const fs::path& folder, Draft& draft)
 {
-    if (!fs::is_regular_file(folder / "parameters") || !fs::is_regular_file(folder / "Allrun"))
+    if (!fs::is_regular_file(folder / entriesFile) || !fs::is_regular_file(folder / "Allrun"))
     {
         throw std::runtime_error(folder.string()
                                  + " is not a case, which needs a file 'parameters' of lines 'name value;' and "
                                    "a program 'Allrun' that reads it");
     }
-    for (const auto& [entry, value] : readEntries(folder / "parameters"))
+    for (const auto& [entry, value] : readEntries(folder / entriesFile))
     {
         draft.guesses["case." + entry] = value;
     }

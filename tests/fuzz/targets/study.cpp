@@ -16,7 +16,7 @@ namespace
 
 void use(const Study& study)
 {
-    const auto numbers = numbersOf(readEntries(study.simulator.caseFolder / study.simulator.entriesFile));
+    const auto numbers = numbersOf(readEntries(study.simulator.caseFolder / entriesFile));
     for (const auto& parameter : study.parameters)
     {
         for (const auto& [entry, formula] : parameter.entries)

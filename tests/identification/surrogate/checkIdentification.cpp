@@ -358,7 +358,7 @@ Json check(const Options& options)
     }
     Study allEffects = study;
     append(allEffects.effects, outsideLibrary());
-    const Entries defaults = readEntries(study.simulator.caseFolder / study.simulator.entriesFile);
+    const Entries defaults = readEntries(study.simulator.caseFolder / entriesFile);
     std::mt19937_64 random(options.seed);
     const auto anyOf = [&](std::size_t count) {
         return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
