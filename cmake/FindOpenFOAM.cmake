@@ -36,7 +36,8 @@ else()
 endif()
 
 set(_sourced "$ENV{WM_PROJECT_DIR}")
-if(_sourced AND EXISTS "${_sourced}/src/finiteVolume/lnInclude/fvCFD.H")
+# What scripts/environment of another copy of Clepsydra has set up is not the user's own.
+if(_sourced AND NOT _sourced MATCHES "/\\.dependencies/openfoam-[0-9]" AND EXISTS "${_sourced}/src/finiteVolume/lnInclude/fvCFD.H")
     set(_root "${_sourced}")
 else()
     set(_root "${_fetched}")

@@ -70,7 +70,7 @@ public:
     virtual ~DemEngine() = default;
 
     /// Requests ParticlesView::pairs: at every step at least all pairs of particles whose surfaces are closer than
-    /// `reach` times the sum of their radii, and of both the number at the index `ofState` of their states.
+    /// `reach` times the sum of their radii, and for both the number `ofState` of their states (ParticlePairs::ofState).
     /// \pre not yet initialised, reach > 0, and requestState() is called, too, with more than `ofState` numbers
     virtual void requestPairs(double reach, std::size_t ofState) = 0;
 

@@ -40,8 +40,8 @@ struct ForceNeeds
 ///     + shared.col(i)                     reaction: on the tank
 ///     + mutual.col(i)                     reaction: on another particle or a wall
 ///
-/// ParticleForces multiplies all but `mutual` by FluidAtParticle::submergedFraction; in `mutual` a model has a factor that
-/// is the same for both, so that reactions stay equal and opposite.
+/// ParticleForces multiplies all but `mutual` by FluidAtParticle::submergedFraction. A model multiplies `mutual` itself, by
+/// one factor for both partners, so that the forces stay equal and opposite.
 ///
 /// The torque on it is torqueCoefficient[i] (curl(U)/2 - omega_i); its reaction is a couple in the fluid.
 ///

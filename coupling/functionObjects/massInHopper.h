@@ -70,7 +70,8 @@ private:
     Foam::scalar stopAfter_ = 0;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::label lastParticles_ = -1;
-    /// At the last sample, over all ranks; particles with higher ids have been inserted since.
+    /// At the last sample, over all ranks; particles with higher ids have been inserted since. One that has received the id of
+    /// a particle lost since then is not seen as inserted.
     Foam::label highestId_ = Foam::labelMax;
     /// Number of rows in all tables since the fresh start.
     Foam::label rows_ = 0;

@@ -69,7 +69,7 @@ private:
     Foam::dictionary state() const;
 
     std::unique_ptr<ParticleBins> bins_;
-    /// Whether they divide the box around the mesh, as it was at the first sample.
+    /// Whether they divide the box around the mesh, as it was at the start of the run.
     bool aroundMesh_ = false;
     Foam::label executeInterval_ = 1;
     /// One column per bin, over all ranks, the same on each.

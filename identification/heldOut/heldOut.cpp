@@ -229,10 +229,9 @@ public:
             result_.data[i].errorSlopes =
                 sharedErrorSlopes(studySimulator_, result_.conditions[i], result_.simulations.back());
         }
-        if (!answer_.set.empty() || answer_.nearest)
+        if (const Explanation* candidate = bestOf(answer_))
         {
-            const Explanation& candidate = answer_.set.empty() ? *answer_.nearest : answer_.set.front();
-            simulateBy(candidate, nameOf(study_, candidate.effects));
+            simulateBy(*candidate, nameOf(study_, candidate->effects));
         }
         result_.predictedBefore = compared_.front().predicted;
         result_.predictedAfter = compared_.size() > 1 ? compared_[1].predicted : std::vector<Prediction>{};
@@ -322,10 +321,7 @@ private:
                     one, i, values, simulated(one.setting(studySimulator_, values), "held out, slopes, " + purpose));
             }
         }
-        if (result_.simulations.size() < 2)
-        {
-            result_.simulations.push_back(simulations);
-        }
+        result_.simulations.push_back(simulations);
     }
 
     void simulateOneMore(const OneMore& more)

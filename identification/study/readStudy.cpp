@@ -97,18 +97,14 @@ std::string objectionTo(const YamlPlace& place, const Effect& effect, const Stud
         });
         for (const auto& [entry, formula] : effect.entries)
         {
-            if (!formula.holds("a")) // a setting that the effect needs, as a shorter step
-            {
-                valueOf(place.at("set").at(entry), formula, atZero[c]);
-                continue;
-            }
             const auto own = atZero[c].find(entry);
             if (own == atZero[c].end())
             {
                 return entry + " is '" + entries[c].at(entry) + "' in the case, which is no number for a formula";
             }
             const double value = valueOf(place.at("set").at(entry), formula, atZero[c]);
-            if (!isUnchanged(value, own->second))
+            // Without `a` it is a setting that the effect needs, as a shorter step.
+            if (formula.holds("a") && !isUnchanged(value, own->second))
             {
                 return entry + " is " + textOf(own->second) + " in the case, but " + textOf(value) + " at a = 0";
             }

@@ -80,7 +80,8 @@ volVectorField velocityWithWalls(const fvMesh& mesh)
     return U;
 }
 
-/// Whether a condition's vector differs on a face, at one of many times to the end of the run, from what it is now. Collective.
+/// Whether a condition's vector differs on a face, at one of many times to the end of the run, from what it is now.
+/// Collective.
 /// \param at  all faces' vectors at a time
 bool changes(const Time& time, const std::function<tmp<vectorField>(scalar)>& at)
 {
@@ -108,24 +109,23 @@ std::string changeInTime(const fvPatchVectorField& onPatch)
 {
     std::string entry;
     std::function<tmp<vectorField>(scalar)> at;
-    const dictionary entries = entriesOf(onPatch);
     if (isA<rotatingWallVelocityFvPatchVectorField>(onPatch))
     {
         entry = "omega";
-        at = [omega = std::shared_ptr<Function1<scalar>>(Function1<scalar>::New(entry, entries).ptr())](
+        at = [omega = std::shared_ptr<Function1<scalar>>(Function1<scalar>::New(entry, entriesOf(onPatch)).ptr())](
                  scalar time) { return tmp<vectorField>::New(1, vector(omega->value(time), 0, 0)); };
     }
     else if (isA<translatingWallVelocityFvPatchVectorField>(onPatch))
     {
         entry = "U";
-        at = [velocity = std::shared_ptr<Function1<vector>>(Function1<vector>::New(entry, entries).ptr())](
+        at = [velocity = std::shared_ptr<Function1<vector>>(Function1<vector>::New(entry, entriesOf(onPatch)).ptr())](
                  scalar time) { return tmp<vectorField>::New(1, velocity->value(time)); };
     }
     else if (isA<uniformFixedValueFvPatchVectorField>(onPatch))
     {
         entry = "uniformValue";
         at = [velocity = std::shared_ptr<PatchFunction1<vector>>(
-                  PatchFunction1<vector>::New(onPatch.patch().patch(), entry, entries).ptr())](
+                  PatchFunction1<vector>::New(onPatch.patch().patch(), entry, entriesOf(onPatch)).ptr())](
                  scalar time) { return velocity->value(time); };
     }
     return at && changes(onPatch.db().time(), at) ? "its " + entry + " changes in time, that of the DEM wall does not"

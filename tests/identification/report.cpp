@@ -533,10 +533,11 @@ TEST(Text, SaysWhatIsMissing)
     writeText({{"summary", "s"}, {"remarks", {"feature end is left out"}},
                   {"runs", {{"failures", {failure("design", 10007, true), failure("base", 5, false)}}}}},
         out);
-    EXPECT_THAT(
-        out.str(), AllOf(HasSubstr("feature end is left out\n"),
-                       HasSubstr("Failed run: design, condition dry, seed 10007; it was repeated with another seed"),
-                       HasSubstr("Failed run: base, condition dry, seed 5; it is excluded")));
+    EXPECT_THAT(out.str(),
+        AllOf(HasSubstr("feature end is left out\n"),
+            HasSubstr(
+                "Failed run (design, condition dry, seed 10007; reason: report.html): repeated with another seed"),
+            HasSubstr("Failed run (base, condition dry, seed 5; reason: report.html): excluded")));
 }
 
 /// Parameters with their errors before and after, and the entry that the effect sets: y = 0.04 a, a = 0.5 ± 0.1.

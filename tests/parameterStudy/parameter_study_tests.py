@@ -153,7 +153,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         outcome = self.call("run")
         self.assertNotEqual(outcome.returncode, 0)
         self.assertIn(
-            "begun with other parameters than the parameter study's file has now (hold)",
+            "begun with other parameters than the parameter study's file and the template have now (hold)",
             outcome.stdout + outcome.stderr,
         )
 
@@ -163,6 +163,10 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         settings: dict[str, Any] = {"case": str(Path(__file__).parent / "surrogate"), "steps": ["dry"], "packings": [1]}
         self.write(runs={"mu": {"parameters": {"friction": 0.2}}}, **settings)
         self.assertEqual(self.call("run").returncode, 0)
+        # what the template lets change makes no other run
+        self.write(runs={"mu": {"parameters": {"friction": 0.2, "drawEvery": 2}}}, **settings)
+        self.assertEqual(self.call("run").returncode, 0)
+        self.assertEqual(len((self.folder / "work/runs/mu.1.dry/starts").read_text().splitlines()), 1)
         for entry, name in (
             ({"parameters": {"friction": 0.3}}, "friction"),
             ({"parameters": {"friction": 0.2}, "filling": {"friction": 0.2}}, "those of its filling"),

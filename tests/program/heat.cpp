@@ -352,7 +352,7 @@ TEST(Heat, ParticlesFromAFileKeepTheirTemperatures)
     const Outcome read = second.run();
     ASSERT_TRUE(read.succeeded()) << read.output;
     EXPECT_TRUE(
-        read.says("Entry 'particleTemperature' of energy in constant/couplingProperties is 300 K, but the file"))
+        read.says("entry 'particleTemperature' of energy in constant/couplingProperties, 300 K, is for all others"))
         << read.output;
     EXPECT_GT(heat(second, "heatInParticles"), 0.99 * heat(first, "heatInParticles"));
 }

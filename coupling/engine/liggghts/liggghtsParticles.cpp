@@ -124,10 +124,10 @@ void LiggghtsParticles::warnOfStoredTemperatures()
     if (program_->comm->me == 0 && (highest > asked || lowest < asked))
     {
         std::ostringstream text;
-        text << "Entry 'particleTemperature' of energy in constant/couplingProperties is " << asked
-             << " K, but the file of particles that the DEM script reads has their temperatures, from " << lowest
-             << " to " << highest << " K, with which they begin; the entry is for particles that are not in the file. "
-             << "Allowed without this warning: a file that was written without 'energy'";
+        text << "Particles that the DEM script reads keep the temperatures of their file, " << lowest << " to "
+             << highest << " K; entry 'particleTemperature' of energy in constant/couplingProperties, " << asked
+             << " K, is for all others. Allowed without this warning: an entry equal to theirs, or a file that was "
+             << "written without 'energy'";
         program_.warn(text.str());
     }
 }

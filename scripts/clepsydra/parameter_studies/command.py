@@ -105,7 +105,9 @@ def run(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     with sole_runner(parameter_study):
         stopped_by = executors.local(parameter_study, options.cores)
     for name, tail in status.failures(parameter_study):
-        print(f"\ncampaign: {name} failed; the end of {parameter_study.work / name}/log:\n{tail}", file=sys.stderr)
+        print(
+            f"\nparameterStudy: {name} failed; the end of {parameter_study.work / name}/log:\n{tail}", file=sys.stderr
+        )
     found = status.states(parameter_study)
     print(
         "parameterStudy: "

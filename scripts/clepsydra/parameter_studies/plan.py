@@ -126,9 +126,13 @@ class ParameterStudy:
             names.update(task.needs, *(self.tasks[need].needs for need in task.needs))
         self.tasks = {name: task for name, task in self.tasks.items() if name in names}
 
+    def matters(self, name: str) -> bool:
+        """Whether another value makes another run: not of how long a step lasts, nor of what may change."""
+        return name not in {*self.template["steps"].values(), *self.template.get("mayChange", ())}
+
     def _changed_since(self, published: parameter_study_results.File, task: Task) -> list[str]:
-        """Names of the parameters, but for how long the steps last, that the parameter study sets to other values than
-        those of published results. What it does not set is the template's, which may be another by now."""
+        """Names of the parameters that the parameter study sets to other values than those of published results. What
+        it does not set is the template's, which may be another by now."""
         try:
             before = dict(json.loads(published.read_text())["parameters"])
         except (ValueError, KeyError, TypeError):
@@ -136,8 +140,7 @@ class ParameterStudy:
                 f"{published}: no dictionary 'parameters' in it; allowed: the JSON of a run's results, or no such file"
             ) from None
         now = self.parameters(task)
-        names = [name for name, _ in task.overrides if name not in self.template["steps"].values()]
-        return [name for name in names if before.get(name) != now[name]]
+        return [name for name, _ in task.overrides if self.matters(name) and before.get(name) != now[name]]
 
     def parameter_text(self, task: Task) -> str:
         """The task's file `parameters`."""

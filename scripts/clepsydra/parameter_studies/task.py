@@ -68,18 +68,13 @@ def is_done(parameter_study: ParameterStudy, task: Task) -> bool:
 
 
 def begun_as_another(parameter_study: ParameterStudy, task: Task) -> str:
-    """Why the folder of an earlier attempt is not that of this task; empty where it is, or where there is none. How
-    long the steps last does not count."""
+    """Why the folder of an earlier attempt is not that of this task; empty where it is, or where there is none. What
+    only one of the two has does not count: the template may have more parameters by now."""
     folder = parameter_study.folder(task)
     if not folder.exists():
         return ""
-    changed = [
-        name
-        for name in parameter_file.changed_names(
-            parameter_file.parameters(folder / "parameters"), parameter_study.parameters(task)
-        )
-        if name not in parameter_study.template["steps"].values()
-    ]
+    before, now = parameter_file.parameters(folder / "parameters"), parameter_study.parameters(task)
+    changed = [name for name in before if name in now and before[name] != now[name] and parameter_study.matters(name)]
     # of the filling alone: what it takes from the file's parameters, and not from the run's
     changed = changed or [
         f"those of its {parameter_study.tasks[maker].part}"
@@ -89,7 +84,7 @@ def begun_as_another(parameter_study: ParameterStudy, task: Task) -> str:
     if not changed:
         return ""
     return (
-        f"{folder} was begun with other parameters than the parameter study's file has now "
+        f"{folder} was begun with other parameters than the parameter study's file and the template have now "
         f"({', '.join(changed)}); remove that folder to begin again, or give the run another name"
     )
 
