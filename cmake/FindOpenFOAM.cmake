@@ -36,8 +36,10 @@ else()
 endif()
 
 set(_sourced "$ENV{WM_PROJECT_DIR}")
-# What scripts/environment of another copy of Clepsydra has set up is not the user's own.
-if(_sourced AND NOT _sourced MATCHES "/\\.dependencies/openfoam-[0-9]" AND EXISTS "${_sourced}/src/finiteVolume/lnInclude/fvCFD.H")
+# What another copy of Clepsydra has set up gives way to this copy's own, where it has one.
+if(_sourced MATCHES "/\\.dependencies/openfoam-[0-9]" AND IS_DIRECTORY "${_fetched}")
+    set(_root "${_fetched}")
+elseif(_sourced AND EXISTS "${_sourced}/src/finiteVolume/lnInclude/fvCFD.H")
     set(_root "${_sourced}")
 else()
     set(_root "${_fetched}")

@@ -462,14 +462,14 @@ private:
         }
         if (!answer_.set.empty())
         {
-            const Predictive predictive = predictiveOf(compared_[1]);
-            result_.after = scoreOf(predictive, compared_[1].predicted);
+            const Predictive after = predictiveOf(compared_[1]);
+            result_.after = scoreOf(after, compared_[1].predicted);
             // Draw by draw, so that noise common to both errors cancels.
             const Eigen::ArrayXd fall = result_.before.errors - result_.after->errors;
             result_.improvement = {result_.before.rmsLogError.value - result_.after->rmsLogError.value,
                 std::sqrt((fall - fall.mean()).square().mean())};
-            result_.overOneMore = ratio(predictive, oneMore);
-            result_.overGaussianProcess = process ? ratio(predictive, *process) : LogRatio{};
+            result_.overOneMore = ratio(after, oneMore);
+            result_.overGaussianProcess = process ? ratio(after, *process) : LogRatio{};
         }
         // The error from noise alone is that of a prediction whose mean equals the measured one.
         auto right = result_.after ? result_.predictedAfter : result_.predictedBefore;

@@ -36,6 +36,7 @@ OTHERS = {
     "coupling/distribution/cyclicPatches.cpp": (6, START),
     "coupling/distribution/lengthOfChange.h": (2, START),
     "coupling/distribution/wayAroundWalls.cpp": (4, START),
+    "coupling/engine/liggghts/liggghtsParticles.cpp": (1, START),
     "coupling/engine/liggghts/removal.cpp": (1, "where particles have left"),
     "coupling/engine/liggghts/restartFiles.cpp": (4, f"{START} and {WRITE}"),
     "coupling/engine/liggghts/scriptFacts.cpp": (1, START),
@@ -56,7 +57,7 @@ OTHERS = {
     "coupling/run/caseSizes.cpp": (2, START),
     "coupling/run/demTimeScales.cpp": (2, START),
     "coupling/run/runOutput.cpp": (2, "at the end"),
-    "solvers/pimpleDemFoam/movingWalls.cpp": (3, START),
+    "solvers/pimpleDemFoam/movingWalls.cpp": (5, START),
     "solvers/pimpleDemFoam/wallsOfMovingMesh.cpp": (8, "where the mesh has moved"),
 }
 

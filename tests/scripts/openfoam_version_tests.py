@@ -198,15 +198,21 @@ class OtherCopy(Environment):
         sourced = self.openfoam("1912", "other/.dependencies/openfoam-1912")
         self.other = sourced["WM_PROJECT_DIR"]
 
-    def test_environment_replaces_it(self) -> None:
-        for before, after in ((self.other, "own/openfoam-1912"), ("/opt/openfoam2312", "/opt/openfoam2312")):
+    def test_environment_replaces_it_where_this_copy_has_its_own(self) -> None:
+        own = self.folder / "own"
+        (own / "openfoam-1912").mkdir(parents=True)
+        for before, dependencies, after in (
+            (self.other, own, f"{own}/openfoam-1912"),
+            (self.other, self.folder / "none", self.other),
+            ("/opt/openfoam2312", own, "/opt/openfoam2312"),
+        ):
             for shell in ("bash", "sh"):
                 said = subprocess.run(
                     [shell, "-c", '. "$CLEPSYDRA/scripts/environment"; echo "$WM_PROJECT_DIR $FOAM_ETC"'],
                     env={
                         "PATH": os.environ["PATH"],
                         "CLEPSYDRA": str(REPOSITORY),
-                        "CLEPSYDRA_DEPENDENCIES": "own",
+                        "CLEPSYDRA_DEPENDENCIES": str(dependencies),
                         "WM_PROJECT_DIR": before,
                         "FOAM_ETC": f"{before}/etc",
                     },

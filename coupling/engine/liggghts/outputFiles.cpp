@@ -173,6 +173,8 @@ std::vector<EngineOutput> OutputFiles::outputs()
 
 } // namespace clepsydra
 
+// The C library's own declarations have reserved names of parameters.
+// NOLINTBEGIN(readability-inconsistent-declaration-parameter-name)
 extern "C" std::FILE* fopen(const char* file, const char* mode)
 {
     using namespace clepsydra;
@@ -188,3 +190,4 @@ extern "C" int fclose(std::FILE* file)
     OutputFiles* const files = OutputFiles::current();
     return files != nullptr ? files->close(file) : systemClose(file);
 }
+// NOLINTEND(readability-inconsistent-declaration-parameter-name)
