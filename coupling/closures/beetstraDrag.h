@@ -22,20 +22,26 @@ struct BeetstraDrag
     static constexpr const char* name = "BeetstraDrag";
     static constexpr const char* line = "drag of beds, Re to 1000 (Beetstra et al. 2007)";
 
+    /// F at Re = 0: Carman's pressure drop at large phi, Stokes' drag at phi = 0.
+    static double creeping(const ParticleInFluid& particle) noexcept
+    {
+        const double eps2 = particle.voidFraction * particle.voidFraction;
+        const double phi = solidFraction(particle);
+        return 10.0 * phi / eps2 + eps2 * (1.0 + 1.5 * std::sqrt(phi));
+    }
+
     double operator()(const ParticleInFluid& particle) const noexcept
     {
         constexpr double logOf10 = 2.302585092994045684;
         const double eps = particle.voidFraction;
-        const double eps2 = eps * eps;
         const double phi = solidFraction(particle);
         const double reynolds = superficialReynolds(particle);
         const double logRe = logReynolds(reynolds);
 
-        const double creeping = 10.0 * phi / eps2 + eps2 * (1.0 + 1.5 * std::sqrt(phi));
-        const double inertial = 0.413 * reynolds / (24.0 * eps2)
+        const double inertial = 0.413 * reynolds / (24.0 * eps * eps)
                                 * (1.0 / eps + 3.0 * phi * eps + 8.4 * std::exp(-0.343 * logRe))
                                 / (1.0 + std::exp(3.0 * phi * logOf10 - 0.5 * (1.0 + 4.0 * phi) * logRe));
-        return stokesCoefficient(particle) * eps * (creeping + inertial);
+        return stokesCoefficient(particle) * eps * (creeping(particle) + inertial);
     }
 };
 

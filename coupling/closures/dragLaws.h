@@ -11,6 +11,7 @@
 #include "closures/rongDrag.h"
 #include "closures/schillerNaumannDrag.h"
 #include "closures/stokesDrag.h"
+#include "closures/tangDrag.h"
 
 #include <functional>
 #include <stdexcept>
@@ -34,6 +35,7 @@ using DragLaws = std::tuple<
     RongDrag,
     SchillerNaumannDrag,
     StokesDrag,
+    TangDrag,
     WenYuDrag
 >;
 // clang-format on

@@ -10,6 +10,7 @@
 #include "closures/kochHillDrag.h"
 #include "closures/morrisonDrag.h"
 #include "closures/rongDrag.h"
+#include "closures/tangDrag.h"
 
 namespace
 {
@@ -101,7 +102,8 @@ TEST(KochHill, AndBeetstraAreCarmansInADenseCreepingBed)
 }
 
 /// All model A laws describe the same beds: at eps = .4 they lie within 30 % of Ergun's equation for Re .01 to 1000
-/// (Rong within 8 %: that is why it is read as model A). A law left in model B's form lies 150 % above.
+/// (Rong within 8 %: that is why it is read as model A). A law left in model B's form lies 150 % above. Tang's lies far
+/// below at Re of several hundred, as printed.
 TEST(DragLaws, OfBedsAgreeWithErgunInABed)
 {
     for (const double reynolds : {0.01, 1.0, 10.0, 100.0, 465.0, 1000.0})
@@ -112,7 +114,20 @@ TEST(DragLaws, OfBedsAgreeWithErgunInABed)
         EXPECT_RELATIVE(DiFeliceDrag{}(particle), ergun, 0.10) << "Re " << reynolds;
         EXPECT_RELATIVE(KochHillDrag{}(particle), ergun, 0.21) << "Re " << reynolds;
         EXPECT_RELATIVE(BeetstraDrag{}(particle), ergun, 0.27) << "Re " << reynolds;
+        EXPECT_RELATIVE(TangDrag{}(particle), ergun, reynolds > 100.0 ? 0.7 : 0.31) << "Re " << reynolds;
     }
+}
+
+/// Where the fit of Tang et al. ends (Re 1000) the law goes on as quadratic drag, without a jump. The printed formula
+/// turns to a negative drag of an isolated particle near Re 1e5.
+TEST(Tang, IsQuadraticBeyondItsRange)
+{
+    const auto inertial = [](double reynolds) {
+        const ParticleInFluid particle = particleAtReynolds(reynolds, 1.0);
+        return TangDrag{}(particle) / stokesCoefficient(particle) - 1.0;
+    };
+    EXPECT_RELATIVE(inertial(1000.0 + 1e-6), inertial(1000.0 - 1e-6), 1e-8);
+    EXPECT_RELATIVE(inertial(1e5), 100.0 * inertial(1000.0), 1e-12);
 }
 
 /// Di Felice's exponent dips by .65 at Re = 10^1.5 and nowhere else: chi = 3.05 there, 3.7 far away on both sides.

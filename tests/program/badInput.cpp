@@ -466,7 +466,7 @@ TEST(BadInput, UnknownModels)
 {
     expectEntryRefused("forceModels", "(DiFelice gradPForce)",
         {"'DiFelice'", "DiFeliceDrag", "SchillerNaumannDrag", "GidaspowDrag", "KochHillDrag", "BeetstraDrag",
-            "RongDrag", "StokesDrag", "gradPForce", "viscForce", "Archimedes"});
+            "RongDrag", "StokesDrag", "TangDrag", "gradPForce", "viscForce", "Archimedes"});
     expectEntryRefused("forceModels", "(DiFeliceDrag gradForce)", {"'gradForce' (did you mean 'gradPForce'?)"});
     expectEntryRefused("forceModels", "(DiFeliceDrag Archimedes Archimedes)", {"'Archimedes' twice"});
     expectEntryRefused("voidFractionModel", "big", {"'big'", "divided", "centre"});
