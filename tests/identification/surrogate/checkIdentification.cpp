@@ -406,7 +406,8 @@ Json check(const Options& options)
             effects.add(outcome);
             byEffect[study.effects[e].name].add(outcome);
             bySize[large < 0.5 ? "0.25-0.5" : large < 0.75 ? "0.5-0.75" : "0.75-1"].add(outcome);
-            if (i < options.again)
+            // other effects in each library
+            if ((i + l * options.again) % options.effects < options.again)
             {
                 const Outcome second = synthetic.answer(data, truth, number + 3 * perKind);
                 askedAgain += 1;
