@@ -390,6 +390,16 @@ class Errors(Folder):
             self.assertIn("allowed: fixedValue, uniformFixedValue, or voidfraction zeroGradient", done.stderr)
             self.assertFalse(self.target.exists())
             shutil.rmtree(case)
+        inflow = "type inletOutlet; inletValue uniform (0 0 0.002);\n"
+        done = self.importing(self.case("packedColumn", "CFD/0/U", table, inflow))
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn(
+            "allowed: fixedValue, uniformFixedValue, or voidfraction zeroGradient there, or inletV", done.stderr
+        )
+        shutil.rmtree(self.folder / "packedColumn")
+        self.imported(self.case("packedColumn", "CFD/0/U", table, inflow.replace("0.002", "0.0")))
+        shutil.rmtree(self.folder / "packedColumn")
+        shutil.rmtree(self.target)
         case = self.case("packedColumn", "CFD/0/U", table, "type flowRateInletVelocity;\n")
         void_fraction = case / "CFD/0/voidfraction"
         void_fraction.write_text(void_fraction.read_text().replace("fixedValue", "zeroGradient"))

@@ -28,12 +28,14 @@ def converted(U: foam_text.Dictionary, void_fraction: foam_text.Dictionary, repo
             continue
         kind = entries.text("type", "")
         if kind not in FIXED:
-            if not NOT_GIVEN.fullmatch(kind) and fixed_fraction(void_fraction.sub("boundaryField"), patch) is not None:
+            is_given = gives_inflow(entries) or not NOT_GIVEN.fullmatch(kind)
+            if is_given and fixed_fraction(void_fraction.sub("boundaryField"), patch) is not None:
                 report.error(
                     entries.where,
                     kind or "type",
                     "0/voidfraction is fixed there, so that the velocity is a superficial one, and this condition is "
-                    f"not converted; allowed: {', '.join(FIXED)}, or voidfraction zeroGradient there",
+                    f"not converted; allowed: {', '.join(FIXED)}, or voidfraction zeroGradient there"
+                    + (", or inletValue uniform (0 0 0)" if gives_inflow(entries) else ""),
                 )
             continue
         table = velocities(entries)
@@ -67,6 +69,11 @@ def converted(U: foam_text.Dictionary, void_fraction: foam_text.Dictionary, repo
                 "here the velocity at the patch is divided by the void fraction there"
             ),
         )
+
+
+def gives_inflow(entries: foam_text.Dictionary) -> bool:
+    """Whether the condition states the velocity of fluid that flows in."""
+    return not re.fullmatch(r"uniform \( (0(\.0*)? ){3}\)", entries.text("inletValue", "uniform ( 0 0 0 )"))
 
 
 def fixed_fraction(void_fraction: foam_text.Dictionary, patch: str) -> Any:
