@@ -10,6 +10,8 @@
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
+#include "DynamicList.H"
+#include "Pstream.H"
 #include "fvMesh.H"
 
 #include <algorithm>
@@ -27,7 +29,6 @@ namespace
 {
 
 const word countEntry = "particlesInHopper";
-const word highestIdEntry = "highestId";
 /// As text, like the samples: OpenFOAM would write numbers with the precision of the fields, and a resumed run would
 /// stop at another time and have another rate.
 const word lastDepartureEntry = "timeOfLastDeparture";
@@ -89,9 +90,13 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
 
     resume(rowsThatStay);
     // OpenFOAM executes function objects only after the first step, but the table should begin at the start time.
-    if (lastSample_ < 0 && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
+    if (mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
-        sample();
+        updateIds();
+        if (lastSample_ < 0)
+        {
+            sample();
+        }
     }
 }
 
@@ -106,7 +111,6 @@ void MassInHopper::resume(label rowsThatStay)
     }
     getProperty(rowsEntry, rows_);
     getProperty(countEntry, lastParticles_);
-    getProperty(highestIdEntry, highestId_);
     const scalar lastSample = samples.back().time;
     if (isRowOfNow(time_, lastSample))
     {
@@ -193,6 +197,10 @@ bool MassInHopper::execute()
         sample();
         stopIfFlowStopped();
     }
+    else if (time_.writeTime())
+    {
+        recordDeparture(returnReduce(updateIds(), orOp<bool>()));
+    }
     return true;
 }
 
@@ -214,19 +222,15 @@ void MassInHopper::sample()
     const ParticlesView particles = observed.particles();
     double massHere = 0;
     double countHere = 0;
-    double insertedHere = 0;
-    double highestIdHere = -1;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        highestIdHere = std::max(highestIdHere, static_cast<double>(particles.id[particle]));
         if (hopper_->contains(observed.positionInBox(particle)))
         {
             massHere += particles.mass[particle];
             ++countHere;
-            insertedHere += particles.id[particle] > highestId_ ? 1 : 0;
         }
     }
-    const RankNumbers all = RankTotals::of({{massHere, countHere, insertedHere}, {highestIdHere}});
+    const RankNumbers all = RankTotals::of({{massHere, countHere}, {updateIds() ? 1.0 : 0.0}});
     const scalar mass = all.sums[0];
     const auto count = static_cast<label>(all.sums[1]);
 
@@ -236,18 +240,46 @@ void MassInHopper::sample()
        << rate_->add(now, mass) << endl;
     requireWritten(os);
 
-    if (count < lastParticles_ + static_cast<label>(all.sums[2]))
-    {
-        setProperty(lastDepartureEntry, string(exactText(now)));
-    }
+    recordDeparture(all.maxima[0] > 0 || count < lastParticles_);
     setResult(countEntry, count);
     setProperty(countEntry, count);
     setProperty(samplesEntry, textOf(rate_->samples()));
     setProperty(rowsEntry, ++rows_);
     lastParticles_ = count;
-    highestId_ = static_cast<label>(all.maxima[0]);
-    setProperty(highestIdEntry, highestId_);
     lastSample_ = now;
+}
+
+bool MassInHopper::updateIds()
+{
+    const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
+    const ParticlesView particles = observed.particles();
+    List<DynamicList<label>> toRanks(Pstream::nProcs());
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        if (hopper_->contains(observed.positionInBox(particle)))
+        {
+            const label id = particles.id[particle];
+            toRanks[id % Pstream::nProcs()].append(id);
+        }
+    }
+    List<DynamicList<label>> fromRanks;
+    Pstream::exchange<DynamicList<label>, label>(toRanks, fromRanks);
+    std::vector<label> now;
+    for (const DynamicList<label>& ids : fromRanks)
+    {
+        now.insert(now.end(), ids.begin(), ids.end());
+    }
+    std::sort(now.begin(), now.end());
+    ids_.swap(now);
+    return !std::includes(ids_.begin(), ids_.end(), now.begin(), now.end());
+}
+
+void MassInHopper::recordDeparture(bool anyHasLeft)
+{
+    if (anyHasLeft)
+    {
+        setProperty(lastDepartureEntry, string(exactText(time_.value())));
+    }
 }
 
 void MassInHopper::stopIfFlowStopped()

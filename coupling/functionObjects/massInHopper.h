@@ -8,6 +8,7 @@
 #include "writeFile.H"
 
 #include <memory>
+#include <vector>
 
 namespace clepsydra
 {
@@ -39,7 +40,8 @@ public:
 
     bool read(const Foam::dictionary& dict) override;
 
-    /// Adds a row where one is due. Collective.
+    /// Adds a row where one is due. At write times it looks for departures in any case, because a resumed run knows of
+    /// the particles in the hopper at that time only. Collective.
     bool execute() override;
 
     /// Does nothing, because execute() writes the rows.
@@ -63,6 +65,11 @@ private:
     void setHopper(const Foam::polyPatch& wall, const Vector3d& axis);
     void sample();
     void stopIfFlowStopped();
+    /// Sets `ids_` to those of the particles that are in the hopper now. Collective.
+    /// \return whether an id of this rank's share is no longer among them
+    bool updateIds();
+    /// Stores the time where particles have left since the last look. Collective.
+    void recordDeparture(bool anyHasLeft);
 
     std::unique_ptr<HopperCylinder> hopper_;
     std::unique_ptr<TrailingRate> rate_;
@@ -70,9 +77,9 @@ private:
     Foam::scalar stopAfter_ = 0;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::label lastParticles_ = -1;
-    /// At the last sample, over all ranks; particles with higher ids have been inserted since. One that has received the id of
-    /// a particle lost since then is not seen as inserted.
-    Foam::label highestId_ = Foam::labelMax;
+    /// Of the particles in the hopper at the last look, in order. Each rank keeps those whose remainder, divided by the number
+    /// of ranks, is its number, wherever the particles are.
+    std::vector<Foam::label> ids_;
     /// Number of rows in all tables since the fresh start.
     Foam::label rows_ = 0;
     bool stopping_ = false;

@@ -88,6 +88,15 @@ public:
         }
     }
 
+    /// Moves a particle that is below the bottom into the hopper.
+    void raise(int id)
+    {
+        if (mine(id))
+        {
+            engine_.moveParticle(id, inside);
+        }
+    }
+
     void insert(int id)
     {
         if (mine(id))
@@ -223,25 +232,38 @@ TEST(MassInHopper, EndsTheRunWhenTheFlowStops)
     EXPECT_EQ(MassInHopper::lastCount(temporaryCase.time()), 5);
 }
 
-/// One particle leaves in each step to 0.5 s, and from the second on another one is inserted, so that the number remains: the run
-/// must end just after 0.7 s. A look at the number alone ends it after 0.21 s.
-TEST(MassInHopper, SeesParticlesLeaveWhileOthersAreInserted)
+/// One particle leaves in each step to 0.5 s, and from the second on another one comes in, so that the number remains: the run must
+/// end just after 0.7 s. A look at the number alone ends it after 0.21 s, one at the new particles too, where they were inserted
+/// elsewhere long before.
+TEST(MassInHopper, SeesParticlesLeaveWhileOthersComeIn)
 {
-    TemporaryCase temporaryCase(functions("stopWhenFlowStops 0.2;"));
-    Discharge discharge(temporaryCase);
-    for (int step = 0; temporaryCase.time().loop(); ++step)
+    for (const bool fromElsewhere : {false, true})
     {
-        if (step < 50)
+        TemporaryCase temporaryCase(functions("stopWhenFlowStops 0.2;"));
+        Discharge discharge(temporaryCase);
+        for (int id = 10; fromElsewhere && id < 59; ++id)
         {
-            discharge.drop(step);
+            discharge.insert(id);
+            discharge.drop(id);
         }
-        if (step > 0 && step < 50)
+        for (int step = 0; temporaryCase.time().loop(); ++step)
         {
-            discharge.insert(9 + step);
+            if (step < 50)
+            {
+                discharge.drop(step);
+            }
+            if (step > 0 && step < 50 && fromElsewhere)
+            {
+                discharge.raise(9 + step);
+            }
+            else if (step > 0 && step < 50)
+            {
+                discharge.insert(9 + step);
+            }
         }
+        EXPECT_NEAR(temporaryCase.time().value(), 0.71, 1e-9) << fromElsewhere;
+        EXPECT_EQ(MassInHopper::lastCount(temporaryCase.time()), 9);
     }
-    EXPECT_NEAR(temporaryCase.time().value(), 0.71, 1e-9);
-    EXPECT_EQ(MassInHopper::lastCount(temporaryCase.time()), 9);
 }
 
 TEST(MassInHopper, DoesNotStopBeforeTheFlowBegins)

@@ -11,7 +11,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 
 CALLS = re.compile(
     r"\b(returnReduce|reduce|combineReduce|gSum\w*|gMax\w*|gMin\w*|gAverage\w*|weightedAverage|domainIntegrate"
-    r"|(?:list|map)?[cC]ombine(?:Gather|Scatter)|gatherList|scatterList|gather|scatter|exchangeSizes"
+    r"|(?:list|map)?[cC]ombine(?:Gather|Scatter)|gatherList|scatterList|gather|scatter|exchangeSizes|Pstream::exchange"
     r"|firstOfRanks|problemOfRanks|waitForAllRanks"
     r"|MPI_I?(?:[Aa]ll\w+|[Rr]educe\w*|[Bb]cast|[Bb]arrier|[Gg]atherv?|[Ss]catterv?|[Ss]can|[Ee]xscan))"
     r"(?:<[^<>;]*(?:<[^<>]*>)?[^<>;]*>)?\("
@@ -46,7 +46,7 @@ OTHERS = {
     ),
     "coupling/exchange/particleExchange.cpp": (1, "where particles have left the boxes that were published"),
     "coupling/functionObjects/hopperCylinder.cpp": (3, START),
-    "coupling/functionObjects/massInHopper.cpp": (1, START),
+    "coupling/functionObjects/massInHopper.cpp": (3, f"{START}, {WRITE} and {ROW}"),
     "coupling/functionObjects/particleHeight.cpp": (2, START),
     "coupling/insertionAndRemoval/insertionAndRemoval.cpp": (2, f"{START} and {WRITE}"),
     "coupling/insertionAndRemoval/particleOutlets.cpp": (5, START),
