@@ -5,6 +5,8 @@
 #include "IOdictionary.H"
 #include "Time.H"
 
+#include <map>
+
 namespace clepsydra
 {
 
@@ -40,11 +42,15 @@ void refuseUnsupported(const fvMesh& mesh)
         }
     }
     const dictionary& pimple = mesh.solutionDict().subOrEmptyDict("PIMPLE");
-    if (pimple.getOrDefault<bool>("consistent", false))
+    for (const auto& [entry, only] :
+        std::map<word, bool>{{"consistent", false}, {"transonic", false}, {"frozenFlow", false}, {"solveFlow", true}})
     {
-        FatalIOErrorInFunction(pimple)
-            << "'consistent' (SIMPLEC) has no effect in this solver; allowed: no, or no such entry"
-            << exit(FatalIOError);
+        if (pimple.getOrDefault<bool>(entry, only) != only)
+        {
+            FatalIOErrorInFunction(pimple) << "'" << entry << ' ' << (only ? "no" : "yes")
+                                           << "' has no effect in this solver; allowed: " << (only ? "yes" : "no")
+                                           << ", or no such entry" << exit(FatalIOError);
+        }
     }
 }
 

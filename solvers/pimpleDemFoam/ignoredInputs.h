@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FlatOutput.H"
 #include "fvMesh.H"
 
 /// \file
@@ -13,8 +14,39 @@ namespace clepsydra
 void refuseRenamedFunctionObjects(const Foam::Time& time);
 
 /// FatalIOError where the case asks for what OpenFOAM's pimpleFoam does and this solver does not: rotating zones
-/// (constant/MRFProperties, unless all are inactive), and PIMPLE { consistent yes; }.
+/// (constant/MRFProperties, unless all are inactive), and PIMPLE { consistent yes; } and others.
 void refuseUnsupported(const Foam::fvMesh& mesh);
+
+/// FatalError where the schemes of a field's equation would make it another one: a convection scheme that is `bounded`,
+/// because it would subtract div(alphaPhi) times the field a second time, or a scheme in time that is none of an unsteady
+/// flow, or another one than that of the void fraction. Inline, because the library of turbulence models needs it, too.
+inline void checkSchemes(const Foam::fvMesh& mesh, const Foam::word& field)
+{
+    using namespace Foam;
+    const word convection("div(phi," + field + ')');
+    if (const token first(mesh.divScheme(convection)); first.isWord() && first.wordToken() == "bounded")
+    {
+        FatalErrorInFunction << "The scheme '" << convection << "' in system/fvSchemes begins with 'bounded'; allowed: "
+                             << "the scheme without that word, because the solver itself subtracts the continuity "
+                             << "error from the equation of " << field << exit(FatalError);
+    }
+    const word inTime("ddt(voidFraction," + field + ')');
+    const tokenList& scheme = mesh.ddtScheme(inTime);
+    const wordList unsteady({"Euler", "backward", "CrankNicolson"});
+    if (!scheme.first().isWord() || !unsteady.found(scheme.first().wordToken()))
+    {
+        FatalErrorInFunction << "The scheme '" << inTime << "' in system/fvSchemes is " << scheme.first()
+                             << "; allowed: " << flatOutput(unsteady) << ", because particles and fluid change in time"
+                             << exit(FatalError);
+    }
+    const word ofVoidFraction("ddt(voidFraction)");
+    if (const tokenList& other = mesh.ddtScheme(ofVoidFraction); scheme != other)
+    {
+        FatalErrorInFunction << "The schemes '" << inTime << "' and '" << ofVoidFraction
+                             << "' in system/fvSchemes differ; allowed: the same for both, because otherwise a uniform "
+                             << field << " would not remain uniform" << exit(FatalError);
+    }
+}
 
 /// Checks the schemes of OpenFOAM's function object `scalarTransport`, whose equation ds/dt + div(flux s) has no void
 /// fraction. Between particles no flux is solenoidal, so that the equation would create and destroy s, unless the

@@ -231,6 +231,11 @@ int main(int argc, char* argv[])
     if (settings.hasFluid())
     {
         refuseUnsupported(mesh);
+        checkSchemes(mesh, "U");
+        if (input.energy)
+        {
+            checkSchemes(mesh, "T");
+        }
         checkScalarTransport(mesh);
     }
     else

@@ -1,3 +1,4 @@
+#include "pimpleDemFoam/ignoredInputs.h"
 #include "pimpleDemFoam/turbulence.h"
 #include "turbulence/modelTypes.h"
 
@@ -67,22 +68,6 @@ private:
     const surfaceScalarField& alphaPhi_;
 };
 
-/// A `bounded` scheme would subtract div(alphaPhi) times the field a second time; see ContinuityError.
-void refuseBoundedSchemes(const fvMesh& mesh)
-{
-    for (const word& name : transportedFields(mesh))
-    {
-        const word scheme("div(phi," + name + ')');
-        const token first(mesh.divScheme(scheme));
-        if (first.isWord() && first.wordToken() == "bounded")
-        {
-            FatalErrorInFunction << "The scheme '" << scheme << "' in system/fvSchemes begins with 'bounded'; allowed: "
-                                 << "the scheme without that word, because the solver itself subtracts the continuity "
-                                 << "error from the equation of " << name << exit(FatalError);
-        }
-    }
-}
-
 /// OpenFOAM would read options again that change in the file, and would look for ContinuityError in it.
 void stopReading(fv::options& options)
 {
@@ -103,7 +88,10 @@ public:
               turbulenceModel::propertiesName))
     {
         const fvMesh& mesh = fluid.U.mesh();
-        refuseBoundedSchemes(mesh);
+        for (const word& name : transportedFields(mesh))
+        {
+            checkSchemes(mesh, name);
+        }
         fv::options& options = fv::options::New(mesh);
         stopReading(options);
         static_cast<fv::optionList&>(options).append(new ContinuityError(mesh, alphaPhi_));

@@ -870,11 +870,28 @@ TEST(BadInput, OfPimpleFoamOnly)
     expectRefused([](TestCase& test) { test.file("constant/MRFProperties").set("rotor/omega", "100"); },
         {"MRFProperties", "'rotor'", "would have no effect", "active no", "dynamicMeshDict"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.solution().set("PIMPLE/consistent", "yes"); },
-        {"fvSolution", "'consistent'", "allowed: no"}, SeenBy::dictionaries);
+        {"fvSolution", "'consistent yes'", "allowed: no"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.solution().set("PIMPLE/frozenFlow", "yes"); },
+        {"fvSolution", "'frozenFlow yes'", "allowed: no"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.solution().set("PIMPLE/solveFlow", "no"); },
+        {"fvSolution", "'solveFlow no'", "allowed: yes"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationtype", "RAS"); },
         {"turbulenceProperties", "did you mean 'simulationType'?"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("RAS/RASModel", "kEpsilon"); },
         {"turbulenceProperties", "simulationType"}, SeenBy::dictionaries);
+}
+
+/// Schemes that would make the equations others: a run with them reached its end with another velocity.
+TEST(BadInput, Schemes)
+{
+    const auto refused = [](const std::string& entry, const std::string& scheme,
+                             const std::vector<std::string>& words) {
+        expectRefused(
+            [&](TestCase& test) { test.file("system/fvSchemes").set(entry, scheme); }, words, SeenBy::dictionaries);
+    };
+    refused("divSchemes/div(phi,U)", "bounded Gauss upwind", {"'div(phi,U)'", "fvSchemes", "'bounded'"});
+    refused("ddtSchemes/default", "steadyState", {"'ddt(voidFraction,U)'", "fvSchemes", "steadyState", "Euler"});
+    refused("ddtSchemes/ddt(voidFraction,U)", "backward", {"'ddt(voidFraction)'", "fvSchemes", "differ"});
 }
 
 /// Values that a case sets and the script replaces, or does not use; forces that could not act: refused, or a warning,
