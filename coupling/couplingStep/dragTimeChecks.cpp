@@ -33,8 +33,10 @@ void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& resu
     const bool checksExplicitCoupling = !settings_.implicitCoupling() && !warnedOfExplicitCoupling_;
     const bool checksFilter =
         settings_.ddtSmoothingTime() >= couplingStepsOfFilter * result.timeStep && !warnedOfFilter_;
+    const bool checksAddedMass = !settings_.implicitCoupling() && !warnedOfAddedMass_;
     double fastestHere = 0;
     double mostHere = 0;
+    double largestHere = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const double drag = result.received[static_cast<std::size_t>(particle)].implicitCoefficientTime;
@@ -46,15 +48,27 @@ void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& resu
                 fastestHere, (1 - fluid.voidFraction) * (drag / result.timeStep)
                                  / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction));
         }
+        if (checksAddedMass)
+        {
+            const double addedMass =
+                result.received[static_cast<std::size_t>(particle)].addedMassTime / result.timeStep;
+            const double mass = particles.mass[particle];
+            const double reacting = moves() ? addedMass * mass / (mass + addedMass) : addedMass;
+            largestHere = std::max(
+                largestHere, (1 - fluid.voidFraction) * reacting
+                                 / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction));
+        }
         if (checksFilter && fluid.voidFraction < looseBed && moves())
         {
             mostHere = std::max(mostHere, result.timeStep * drag / inertiaTime(particles, particle, result));
         }
     }
-    totals.add({{}, {fastestHere, mostHere}}, [this, couplingTimeStep = result.timeStep](const RankNumbers& all) {
-        checkExplicitCoupling(all.maxima[0], couplingTimeStep);
-        checkFilter(all.maxima[1], couplingTimeStep);
-    });
+    totals.add(
+        {{}, {fastestHere, mostHere, largestHere}}, [this, couplingTimeStep = result.timeStep](const RankNumbers& all) {
+            checkExplicitCoupling(all.maxima[0], couplingTimeStep);
+            checkFilter(all.maxima[1], couplingTimeStep);
+            checkAddedMass(all.maxima[2]);
+        });
 }
 
 void DragTimeChecks::checkExplicitCoupling(double fastest, double couplingTimeStep)
@@ -92,6 +106,25 @@ void DragTimeChecks::checkFilter(double most, double couplingTimeStep)
             << " s. Where such a bed falls or rises as a whole, errors then grow from step to step. Leave "
             << "the filter out (useDDTvoidfractionProps), or use a couplingTimeStep (and deltaT) of at most "
             << longestWithFilter * couplingTimeStep / most << " s. This warning is printed once" << endl;
+    }
+}
+
+void DragTimeChecks::checkAddedMass(double largest)
+{
+    if (largest <= 1)
+    {
+        return;
+    }
+    warnedOfAddedMass_ = true;
+    if (Pstream::master())
+    {
+        WarningInFunction
+            << "With momCoupleModels (explicitCouple) the fluid receives the reaction to the particles' added mass "
+               "after "
+            << "the coupling step. Where the added mass is more than the mass of the fluid between the particles, here "
+            << largest
+            << " times as much, errors grow from step to step, whatever the coupling step. Use implicitCouple. "
+            << "This warning is printed once" << endl;
     }
 }
 

@@ -20,7 +20,8 @@ public:
 
     /// A warning, once, where the coupling step of `explicitCouple` is longer than twice the time in which the
     /// particles' drag stops the fluid. A warning, once, where the coupling step is so many relaxation times of
-    /// particles in a dense bed that the low-pass filter lets errors grow, see VoidFractionRate. Local; warnings come
+    /// particles in a dense bed that the low-pass filter lets errors grow, see VoidFractionRate. A warning, once, where the
+    /// reaction to an added mass grows from step to step of `explicitCouple`, see implicitAddedMass(). Local; warnings come
     /// when the totals are reduced.
     void addTo(const ParticlesView& particles, const DemResult& result, RankTotals& totals);
 
@@ -30,10 +31,14 @@ private:
     /// \param most  relaxation times in the coupling step, of the particle in a dense bed that has the most
     void checkFilter(double most, double couplingTimeStep);
 
+    /// \param largest  change of the fluid's velocity in a coupling step over that in the step before, which causes it
+    void checkAddedMass(double largest);
+
     const CouplingSettings& settings_;
     const double fluidDensity_;
     bool warnedOfExplicitCoupling_ = false;
     bool warnedOfFilter_ = false;
+    bool warnedOfAddedMass_ = false;
 };
 
 } // namespace clepsydra

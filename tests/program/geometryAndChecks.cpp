@@ -107,6 +107,32 @@ TEST(GeometryAndChecks, ExplicitCouplingWithLongCouplingStepsIsWarnedOf)
     }
 }
 
+/// In this bed Zuber's added mass is 2.8 times the mass of the fluid between the particles, so that its explicit reaction grows
+/// from step to step. Such a run ended after a hundred steps, with words on the pressure's tolerance only.
+TEST(GeometryAndChecks, ExplicitReactionToALargeAddedMassIsWarnedOf)
+{
+    for (const std::string law : {"Zuber", "constant"})
+    {
+        TestCase test;
+        test.box.upper = {2.48084e-3, 2.48084e-3, 4.96168e-3};
+        test.cells = {2, 2, 4};
+        test.setThroughFlow("uniform (0 0 0.001)");
+        test.dem.diameter = 5e-4;
+        test.dem.particles = bodyCentredLattice(test.box, {4, 4, 8});
+        test.dem.fixed = true;
+        test.dem.timeStep = 1e-6;
+        test.coupling()
+            .set("momCoupleModels", "(explicitCouple)")
+            .set("constDiffSmoothingProps/bandwidth", "1.5e-3")
+            .set("forceModels", "(StokesDrag gradPForce viscForce Archimedes virtualMassForce)")
+            .set("virtualMassForceProps/law", law);
+        test.setTimes(4e-5, 2e-5, 4e-5);
+        const Outcome outcome = test.run();
+        EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+        EXPECT_EQ(outcome.says("the reaction to the particles' added mass"), law == "Zuber") << outcome.output;
+    }
+}
+
 /// Drag is explicit in the DEM step, so a step of more than two relaxation times, 0.11 ms for 20 um in water, turns the slip
 /// into a larger one in each step. Contacts set a limit of the step that is usually shorter, but not for such particles. In the
 /// 50 steps of one coupling step the particle would leave the box.
