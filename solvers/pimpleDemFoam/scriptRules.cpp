@@ -2,6 +2,7 @@
 
 #include "couplingStep/energy.h"
 #include "distribution/cyclicPatches.h"
+#include "forces/forceFamily.h"
 #include "movingWalls.h"
 #include "runTimeSelection.h"
 #include "wordRes.H"
@@ -121,8 +122,30 @@ std::string objectionToGravity(const ScriptFacts::Fix& gravity, const ScriptFact
                                                                  : std::string();
 }
 
-void addFixes(const ScriptFacts& facts, bool hasEnergy, std::vector<Unknown>& unknown)
+/// Whether a force depends on the acceleration of the particles.
+bool hasAddedMass(const CouplingSettings& settings)
 {
+    wordList names = ForceLines::namesOf(ForceFamily::addedMass);
+    names.append(ForceLines::namesOf(ForceFamily::history));
+    const wordList models = settings.dict().getOrDefault<wordList>("forceModels", wordList());
+    return std::any_of(models.begin(), models.end(), [&](const word& model) { return names.found(model); });
+}
+
+/// Whether fix move can be beside the forces: they take particles that it moves for particles without acceleration.
+std::string objectionToMove(const ScriptFacts::Fix& move, const CouplingSettings& settings)
+{
+    const std::vector<std::string> words = tokensOf(move.command.text);
+    constexpr std::size_t kindOfMotion = 4;
+    return words.size() > kindOfMotion && words[kindOfMotion] != "linear" && hasAddedMass(settings)
+               ? "the motion '" + words[kindOfMotion]
+                     + "' accelerates particles, and the forces of added mass and history take particles that fix move "
+                       "moves for ones with a constant velocity"
+               : std::string();
+}
+
+void addFixes(const ScriptFacts& facts, const CouplingSettings& settings, std::vector<Unknown>& unknown)
+{
+    const bool hasEnergy = clepsydra::hasEnergy(settings);
     const bool hasIf = facts.lastCommand("if") != nullptr;
     for (const ScriptFacts::Fix& fix : facts.fixes)
     {
@@ -138,7 +161,9 @@ void addFixes(const ScriptFacts& facts, bool hasEnergy, std::vector<Unknown>& un
         {
             unknown.push_back({place, name + reasonFor(fix.style), fix.style});
         }
-        if (const std::string objection = fix.style == "gravity" ? objectionToGravity(fix, facts) : std::string();
+        if (const std::string objection = fix.style == "gravity" ? objectionToGravity(fix, facts)
+                                          : fix.style == "move"  ? objectionToMove(fix, settings)
+                                                                 : std::string();
             !objection.empty())
         {
             unknown.push_back({place, name + objection, fix.style});
@@ -206,7 +231,7 @@ void addContactsOfParcels(const ScriptFacts& facts, double coarseGraining, std::
 }
 
 std::vector<Unknown> unknownWithFluid(
-    const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves, double coarseGraining, bool hasEnergy)
+    const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves)
 {
     std::vector<Unknown> unknown;
     const auto requireOneOf = [&](const std::string& command, const std::string& style,
@@ -220,11 +245,11 @@ std::vector<Unknown> unknownWithFluid(
     requireOneOf("atom_style", facts.atomStyle, {"granular", "sphere"});
     requireOneOf("pair_style", facts.pairStyle, {"gran", "none"});
     requireOneOf("run_style", facts.runStyle, {"verlet"});
-    addFixes(facts, hasEnergy, unknown);
+    addFixes(facts, settings, unknown);
     addMovingWalls(facts, mesh, meshMoves, unknown);
-    if (coarseGraining != 1)
+    if (settings.coarseGraining() != 1)
     {
-        addContactsOfParcels(facts, coarseGraining, unknown);
+        addContactsOfParcels(facts, settings.coarseGraining(), unknown);
     }
     return unknown;
 }
@@ -334,8 +359,7 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     requireRightWithFluid(demDict, facts);
     std::string text;
     std::set<std::string> names;
-    for (const auto& [place, what, name] :
-        unknownWithFluid(facts, mesh, meshMoves, settings.coarseGraining(), clepsydra::hasEnergy(settings)))
+    for (const auto& [place, what, name] : unknownWithFluid(settings, facts, mesh, meshMoves))
     {
         if (!allowed.match(name))
         {

@@ -385,6 +385,28 @@ TEST(DemScripts, GravityThatConstantGCannotBe)
     expectRefused(changing, {script + " line ", "gravity changes in time", "allowedInScript ( \"gravity\" )"});
 }
 
+/// The forces take a particle that fix move moves for one without acceleration: its added mass did not act on the fluid.
+TEST(DemScripts, AnAccelerationByTheScriptIsRefusedBesideAddedMass)
+{
+    for (const bool addedMass : {true, false})
+    {
+        TestCase test;
+        fillIn(test);
+        test.dem.fixed = true;
+        test.dem.more = "fix swing all move wiggle 0 0 0.001 0.02";
+        test.coupling().set("forceModels",
+            std::string("(DiFeliceDrag gradPForce viscForce Archimedes") + (addedMass ? " virtualMassForce)" : ")"));
+        if (addedMass)
+        {
+            expectRefused(test, {script + " line ", "the motion 'wiggle'", "allowedInScript ( \"move\" )"});
+        }
+        else
+        {
+            expectRuns(test);
+        }
+    }
+}
+
 /// A particle that left a periodic box at +20 mm appeared at -20 mm, on the other side of the fluid's walls.
 TEST(DemScripts, APeriodicBoxIsRefusedWhereTheMeshHasWalls)
 {
