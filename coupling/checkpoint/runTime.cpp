@@ -52,6 +52,8 @@ void RunTime::resume(double beginning)
     // With adjustableCouplingTimeStep, the deltaT of controlDict is only that of the first step and may reach beyond
     // the next write time or the end.
     setDeltaT(written.get<scalar>("deltaT"), false);
+    // The step before the next one, which schemes of second order in time need.
+    deltaTSave_ = deltaT_;
     if (writesByTime())
     {
         writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);
