@@ -32,6 +32,8 @@ const word countEntry = "particlesInHopper";
 /// As text, like the samples: OpenFOAM would write numbers with the precision of the fields, and a resumed run would
 /// stop at another time and have another rate.
 const word lastDepartureEntry = "timeOfLastDeparture";
+/// Whether a particle has left after the last sample and before the checkpoint.
+const word departedEntry = "departedSinceLastSample";
 /// Times and masses alternately.
 const word samplesEntry = "samplesOfRate";
 const word rowsEntry = "rows";
@@ -199,7 +201,10 @@ bool MassInHopper::execute()
     }
     else if (time_.writeTime())
     {
-        recordDeparture(returnReduce(updateIds(), orOp<bool>()));
+        if (returnReduce(updateIds(), orOp<bool>()))
+        {
+            setProperty(departedEntry, true);
+        }
     }
     return true;
 }
@@ -240,7 +245,11 @@ void MassInHopper::sample()
        << rate_->add(now, mass) << endl;
     requireWritten(os);
 
-    recordDeparture(all.maxima[0] > 0 || count < lastParticles_);
+    if (all.maxima[0] > 0 || count < lastParticles_ || getProperty<bool>(departedEntry))
+    {
+        setProperty(lastDepartureEntry, string(exactText(now)));
+        setProperty(departedEntry, false);
+    }
     setResult(countEntry, count);
     setProperty(countEntry, count);
     setProperty(samplesEntry, textOf(rate_->samples()));
@@ -272,14 +281,6 @@ bool MassInHopper::updateIds()
     std::sort(now.begin(), now.end());
     ids_.swap(now);
     return !std::includes(ids_.begin(), ids_.end(), now.begin(), now.end());
-}
-
-void MassInHopper::recordDeparture(bool anyHasLeft)
-{
-    if (anyHasLeft)
-    {
-        setProperty(lastDepartureEntry, string(exactText(time_.value())));
-    }
 }
 
 void MassInHopper::stopIfFlowStopped()

@@ -68,8 +68,6 @@ private:
     /// Sets `ids_` to those of the particles that are in the hopper now. Collective.
     /// \return whether an id of this rank's share is no longer among them
     bool updateIds();
-    /// Stores the time where particles have left since the last look. Collective.
-    void recordDeparture(bool anyHasLeft);
 
     std::unique_ptr<HopperCylinder> hopper_;
     std::unique_ptr<TrailingRate> rate_;

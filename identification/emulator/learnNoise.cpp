@@ -29,6 +29,10 @@ constexpr double leastBetween = 0.01;
 /// Weight of the scatter of all conditions beside that of one condition, in degrees of freedom.
 constexpr double sharedScatter = 8.0;
 
+/// Standard deviation, before any run, of the log of the factor by which an effect of amplitude 1 changes the scatter.
+/// Without it, two runs of a small amplitude that differ by chance would make that factor huge.
+constexpr double priorOfLogFactor = 2.0;
+
 /// Bias of the log of a mean square.
 double biasOfLog(double degreesOfFreedom)
 {
@@ -54,8 +58,8 @@ void add(SquaresByAmplitude& all, double amplitude, Eigen::Index features, const
     here.freedom(kept).array() += freedom;
 }
 
-/// Log of the factor at amplitude 1, the mean over the amplitudes with weights that are inverse to their variances, and
-/// its weight in degrees of freedom at amplitude 1.
+/// Log of the factor at amplitude 1, the mean of the prior, 0, and of the amplitudes with weights that are inverse to
+/// their variances, and the weight of the amplitudes in degrees of freedom at amplitude 1.
 std::pair<double, double> logFactor(const SquaresByAmplitude& all, Eigen::Index feature)
 {
     double sum = 0.0;
@@ -69,7 +73,8 @@ std::pair<double, double> logFactor(const SquaresByAmplitude& all, Eigen::Index 
             weights += weight;
         }
     }
-    return {sum / weights, weights};
+    // The variance of the log of a standard deviation is 1/(2 nu).
+    return {sum / (weights + 0.5 / (priorOfLogFactor * priorOfLogFactor)), weights};
 }
 
 } // namespace
