@@ -103,8 +103,6 @@ Json effectsJson(const Findings& findings)
             {"smallestDetectable", answer.visibility.detected(e)}, {"smallestNamed", answer.visibility.named(e)},
             {"howToMeasure", effect.hint}});
     }
-    std::stable_sort(list.begin(), list.end(),
-        [](const Json& a, const Json& b) { return a["probability"].get<double>() > b["probability"].get<double>(); });
     return list;
 }
 
@@ -264,12 +262,13 @@ Json jsonOf(const Findings& findings)
     json["study"] = study.name;
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
-    json["name"] = answer.decision == Decision::named ? Json(namedBy(study, answer)) : Json(nullptr);
-    const auto& [summary, details, next, assumptions] = sentencesOf(findings);
-    json["summary"] = summary;
-    json["details"] = details;
+    json["name"] = answer.decision != Decision::named ? Json(nullptr)
+                   : answer.family.empty()            ? Json(nameOf(study, answer.set.front().effects))
+                                                      : Json(answer.family);
+    json["summary"] = nullptr; // the sentences, which state what follows, get their places
+    json["details"] = nullptr;
     json["fitted"] = fittedNumbers(findings);
-    json["measureNext"] = next;
+    json["measureNext"] = nullptr;
     json["set"] = mapped(answer.set, [&](const Explanation& each) { return explanationJson(study, each); });
     json["family"] = answer.family;
     json["somethingElseInSet"] = answer.unlistedCauseInSet;
@@ -304,9 +303,13 @@ Json jsonOf(const Findings& findings)
     json["emulator"] = emulatorJson(answer);
     json["runs"] = runsJson(*findings.studySimulator);
     json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.studySimulator->effort().seedsByPurpose}};
-    json["assumptions"] = assumptions;
+    json["assumptions"] = nullptr;
     json["remarks"] = answer.remarks;
-    return Json::parse(json.dump()); // NaN and infinity, which JSON does not have, have become null
+    json = Json::parse(json.dump()); // NaN and infinity, which JSON does not have, become null
+    addSentences(json, findings);
+    std::stable_sort(json["effects"].begin(), json["effects"].end(),
+        [](const Json& a, const Json& b) { return a["probability"].get<double>() > b["probability"].get<double>(); });
+    return json;
 }
 
 } // namespace clepsydra::identification

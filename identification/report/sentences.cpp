@@ -154,28 +154,20 @@ Json refutingFacts(const Findings& findings, const Explanation& best)
     return facts;
 }
 
-/// Why probable effects are not in the set, and what is doubtful about those that are.
-Json doubtsOf(const Findings& findings)
+/// Adds to effects of the report why probable ones are not in the set, and what is doubtful about those that are.
+void addDoubts(Json& effects)
 {
     constexpr double worthAReason = 0.01; // probability
-    Json doubts = Json::array();
-    for (std::size_t e = 0; e < findings.answer->effects.size(); ++e)
+    for (auto& effect : effects)
     {
-        const Effect& effect = findings.study->effects[e];
-        const EffectFinding& finding = findings.answer->effects[e];
-        const auto agrees = agreesWithMeasurement(effect, finding);
-        doubts.push_back({{"effect", effect.name}, {"capitalised", capitalised(effect.name)},
-            {"probability", finding.probability},
-            {"excluded", finding.probability < worthAReason ? "" : finding.notInSetBecause},
-            {"containsZero", finding.inSet && !effect.isSwitch && finding.fit.lower <= 0.0 && finding.fit.upper >= 0.0},
-            {"compared", nullptr}});
-        if (finding.inSet && agrees)
+        effect["capitalised"] = capitalised(effect["name"]);
+        effect["excluded"] = effect["probability"] < worthAReason ? Json() : effect["notInSetBecause"];
+        effect["containsZero"] = effect["interval95"][0] <= 0.0 && effect["interval95"][1] >= 0.0;
+        if (effect["measured"].is_object())
         {
-            doubts.back()["compared"] = {{"measured", Estimate{effect.measured->mean, effect.measured->sd}},
-                {"alone", Estimate{finding.alone->amplitude, finding.alone->sd}}, {"agrees", *agrees}};
+            effect["measured"]["value"] = effect["measured"]["mean"];
         }
     }
-    return doubts;
 }
 
 /// "falls from 35 to 2.1 %", of the error on the held-out conditions. A change that its standard error may explain is
@@ -312,8 +304,8 @@ std::vector<std::string> alikeTo(const Findings& findings)
     return mapped(alike, [&](std::size_t e) { return findings.study->effects[e].name; });
 }
 
-/// What the sentences state.
-Json factsOf(const Findings& findings)
+/// What the sentences state: the report, and more.
+Json factsOf(const Json& report, const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
@@ -336,18 +328,18 @@ Json factsOf(const Findings& findings)
     {
         causes.emplace_back("a cause that the library does not list");
     }
-    Json facts = {{nameOf(answer.decision), true}, {"effectCount", study.effects.size()},
-        {"found", !answer.set.empty()}, {"single", answer.set.size() == 1}, {"family", answer.family},
-        {"predicts", predicts}, {"confirmed", isConfirmed}, {"members", members}, {"causes", joined(causes, ", or ")},
+    Json facts = report;
+    facts.update({{"decided", {{nameOf(answer.decision), true}}}, {"effectCount", study.effects.size()},
+        {"found", !answer.set.empty()}, {"single", answer.set.size() == 1}, {"predicts", predicts},
+        {"confirmed", isConfirmed}, {"members", members}, {"causes", joined(causes, ", or ")},
         {"probabilities", probabilities}, {"strained", joined(strainedParameters(findings), " and ")},
-        {"pValue", answer.pValue}, {"otherProbability", answer.otherProbability},
         {"otherByRule", answer.unlistedCauseInSet && !(answer.otherProbability >= answer.otherThreshold)},
-        {"doubts", doubtsOf(findings)}, {"hints", hintsOf(findings)},
-        {"atEnds", mapped(valuesAtEnds(findings), capitalised)}, {"largest", largestOf(study, without)},
-        {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
-        {"wrongNamesFound", answer.calibration.wrongNames}, {"modelError", study.modelError.maxCoeff() > 0.0},
+        {"hints", hintsOf(findings)}, {"atEnds", mapped(valuesAtEnds(findings), capitalised)},
+        {"largest", largestOf(study, without)}, {"scatters", answer.emulator->scatters()},
+        {"wrongNames", textOf(100.0 * study.settings.wrongNames)}, {"modelError", study.modelError.maxCoeff() > 0.0},
         {"leftOut", mapped(study.leftOut, [](const LeftOut& one) { return inLine(one.text()); })},
-        {"differ", study.simulator.scatters()}};
+        {"heldOut", nullptr}});
+    addDoubts(facts["effects"]);
     std::vector<std::string> interpolated; // members of the set without a run at their fit
     for (const auto& each : answer.set)
     {
@@ -364,27 +356,19 @@ Json factsOf(const Findings& findings)
     });
     if (answer.nearest)
     {
-        facts["nearest"] = {{"name", nameOf(study, answer.nearest->effects)},
-            {"meaning", meaningOf(findings, *answer.nearest)}, {"takes", shareTaken(answer, *answer.nearest)},
-            {"without", answer.null.chiSquare}, {"with", answer.nearest->chiSquare},
-            {"numbers", answer.measured.mean.size()},
-            {"left", largestOf(study, residualsOf(findings, answer.nearest->setting))}};
+        facts["nearest"].update({{"meaning", meaningOf(findings, *answer.nearest)},
+            {"numbers", answer.measured.mean.size()}, {"mostOfRest", largestOf(study, with)}});
     }
     if (best != nullptr)
     {
         facts["best"] = nameOf(study, best->effects);
         facts["deciding"] = decidingCondition(study, without, with);
     }
-    std::vector<std::string> names; // of parameters that act without an effect
-    for (const auto& parameter : study.parameters)
+    const auto acting = numbersWhere(study.parameters.size(), // without an effect
+        [&](std::size_t p) { return !study.parameters[p].effect; });
+    if (!acting.empty())
     {
-        if (!parameter.effect)
-        {
-            names.push_back(parameter.name);
-        }
-    }
-    if (!names.empty())
-    {
+        const auto names = mapped(acting, [&](std::size_t p) { return study.parameters[p].name; });
         facts["parameters"] = {{"names", capitalised(joined(names, " and "))},
             {"prior", rmsInErrors(residualsOf(findings, findings.studySimulator->plainSetting()))},
             {"fitted", rmsInErrors(without)}, {"residual", rmsInErrors(with)}};
@@ -393,15 +377,9 @@ Json factsOf(const Findings& findings)
     {
         facts["refuted"] = refutingFacts(findings, *best);
     }
-    if (answer.oddsOfName && best != nullptr)
-    {
-        const auto [odds, needed] = *answer.oddsOfName;
-        facts["odds"] = {{"is", odds}, {"needed", std::isfinite(needed) ? Json(needed) : Json()}};
-    }
     if (answer.decision == Decision::named)
     {
         facts["alike"] = joined(alikeTo(findings), ", ");
-        facts["name"] = namedBy(study, answer);
     }
     if (findings.heldOut != nullptr && !findings.heldOut->conditions.empty())
     {
@@ -435,17 +413,13 @@ std::vector<std::string> part(const std::string& name, Json facts)
 
 } // namespace
 
-std::string namedBy(const Study& study, const Answer& answer)
+void addSentences(Json& report, const Findings& findings)
 {
-    return answer.family.empty() ? nameOf(study, answer.set.front().effects) : answer.family;
-}
-
-Sentences sentencesOf(const Findings& findings)
-{
-    const Json facts = factsOf(findings);
+    const Json facts = factsOf(report, findings);
     std::vector<std::string> assumptions = findings.study->assumptions;
     append(assumptions, part("assumptions", facts));
-    return {part("summary", facts).front(), part("details", facts), part("next", facts), assumptions};
+    report.update({{"summary", part("summary", facts).front()}, {"details", part("details", facts)},
+        {"measureNext", part("measureNext", facts)}, {"assumptions", assumptions}});
 }
 
 } // namespace clepsydra::identification

@@ -6,7 +6,6 @@
 #include "report/report.h"
 #include "report/svg.h"
 #include "report/text.h"
-#include "report/sentences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -92,9 +91,11 @@ struct Bench
         answer.null.fits.front().marginal = Eigen::MatrixXd::Constant(1, 1, 0.25);
         answer.pValue = 0.0009995;
         answer.effects.resize(study.effects.size());
+        answer.visibility.detected = answer.visibility.named = Eigen::VectorXd::Ones(3);
         for (auto& finding : answer.effects)
         {
             finding.fit.sd = 0.1;
+            finding.parameters = answer.null.setting.parameters;
             finding.fit.marginal = Eigen::MatrixXd::Constant(1, 1, 0.04);
         }
     }
@@ -119,6 +120,9 @@ struct Bench
     void heldOutErrors(double before, double after)
     {
         heldOut.conditions = {2};
+        const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
+        heldOut.data = {{one, one, one, one}};
+        heldOut.predictedBefore = {{one, one, one}};
         heldOut.before.rmsLogError = {before, 0.01};
         heldOut.after.emplace();
         heldOut.after->rmsLogError = {after, 0.004};
@@ -136,6 +140,18 @@ struct Bench
     HeldOutResult heldOut;
     Findings findings{&study, &answer, nullptr, nullptr, &studySimulator, nullptr, nullptr};
 };
+
+struct Sentences
+{
+    std::string summary;
+    std::vector<std::string> details, next, assumptions;
+};
+
+Sentences sentencesOf(const Findings& findings)
+{
+    const auto report = jsonOf(findings);
+    return {report["summary"], report["details"], report["measureNext"], report["assumptions"]};
+}
 
 /// Forms of a number, an estimate without an error, and what counts as false.
 TEST(Filled, FormsOfNumbers)
