@@ -1,7 +1,6 @@
 #include "curves/curve.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace clepsydra::identification

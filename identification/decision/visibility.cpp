@@ -1,7 +1,5 @@
 #include "decision/calibration.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace clepsydra::identification

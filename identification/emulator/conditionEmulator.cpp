@@ -2,8 +2,6 @@
 
 #include "lists.h"
 
-#include <Eigen/Cholesky>
-
 #include <cmath>
 
 namespace clepsydra::identification

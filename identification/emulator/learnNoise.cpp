@@ -3,8 +3,6 @@
 #include "emulator/emulator.h"
 #include "emulator/settings.h"
 
-#include "lists.h"
-
 #include <Eigen/Cholesky>
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "runner/studySimulator.h"
 
-#include <string>
 #include <vector>
 
 namespace clepsydra::identification

@@ -13,8 +13,6 @@ namespace clepsydra::identification
 namespace
 {
 
-using Json = nlohmann::ordered_json;
-
 Json unitJson(const std::string& name, double siUnits)
 {
     return {{"unit", name}, {"si", siUnits}};

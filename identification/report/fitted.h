@@ -13,11 +13,11 @@ namespace clepsydra::identification
 /// The quantities fitted to the measurements, in the units of the user's case: the parameters, the entries that follow
 /// from them by a formula, and the entries or operations that the best explanation sets, in the first condition in which
 /// it acts. They are `fitted` of report.json.
-nlohmann::ordered_json fittedNumbers(const Findings& findings);
+Json fittedNumbers(const Findings& findings);
 
 /// Units in which the features were measured, and their sizes in SI units, by name of the feature: `units` of
 /// report.json.
-nlohmann::ordered_json unitsOf(const Study& study);
+Json unitsOf(const Study& study);
 
 /// Which end of its range a fitted value has reached: "lower", "upper", or empty.
 /// \param error  standard error; a value that is bounded by the range lies about one of it away from the end

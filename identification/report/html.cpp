@@ -15,8 +15,6 @@ namespace clepsydra::identification
 namespace
 {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* page =
 #include "report/page.mustache"
     ;

@@ -4,7 +4,6 @@
 #include "runner/studySimulator.h"
 #include "report/fitted.h"
 #include "report/text.h"
-#include "report/sentences.h"
 
 #include <clepsydra/version.h>
 
@@ -14,12 +13,12 @@
 namespace clepsydra::identification
 {
 
-void to_json(nlohmann::ordered_json& json, const LogRatio& ratio)
+void to_json(Json& json, const LogRatio& ratio)
 {
     json = {{"logRatio", ratio.value}, {"pValue", ratio.pValue}};
 }
 
-void to_json(nlohmann::ordered_json& json, const HeldOutScore& score)
+void to_json(Json& json, const HeldOutScore& score)
 {
     json = {{"rmsLogError", score.rmsLogError.value}, {"standardError", score.rmsLogError.standardError},
         {"chiSquare", score.chiSquare}, {"pValue", score.pValue}, {"overNull", score.overNull}};
@@ -27,8 +26,6 @@ void to_json(nlohmann::ordered_json& json, const HeldOutScore& score)
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<double> numbers(const Eigen::VectorXd& values)
 {

@@ -3,8 +3,7 @@
 #include "decision/answer.h"
 #include "heldOut/heldOut.h"
 #include "nextRuns/nextExperiment.h"
-
-#include <nlohmann/json.hpp>
+#include "report/text.h"
 
 #include <optional>
 #include <ostream>
@@ -27,7 +26,11 @@ struct Findings
 };
 
 /// Content of report.json, whose keys docs/reference/report.md describes.
-nlohmann::ordered_json jsonOf(const Findings& findings);
+Json jsonOf(const Findings& findings);
+
+/// Adds what a report says in words, for readers who do not know the procedure: `summary`, `details`, `measureNext` and
+/// `assumptions`.
+void addSentences(Json& report, const Findings& findings);
 
 /// Plots of measured and simulated curves as HTML. They need the runs; all other parts of the page are in report.json.
 struct CurvePlots
@@ -41,7 +44,7 @@ CurvePlots curvePlotsOf(const Findings& findings);
 
 /// Content of report.html, a page that refers to no other files. \param curves  empty if the runs are not stored
 /// \throws nlohmann::json::exception if the report lacks a key that the page shows
-std::string htmlOf(const nlohmann::ordered_json& report, const std::optional<CurvePlots>& curves);
+std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves);
 
 /// Writes the result of a plan as text: the effects that can be detected, named and distinguished.
 void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,

@@ -1,5 +1,3 @@
-#include "report/sentences.h"
-
 #include "lists.h"
 #include "report/fitted.h"
 #include "report/text.h"
@@ -16,8 +14,6 @@ namespace clepsydra::identification
 
 namespace
 {
-
-using Json = nlohmann::ordered_json;
 
 /// Each line is a sentence.
 constexpr const char* sentences =

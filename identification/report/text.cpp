@@ -17,7 +17,6 @@ namespace clepsydra::identification
 namespace
 {
 
-using Json = nlohmann::ordered_json;
 namespace mustache = kainjow::mustache;
 
 int powerOfTen(double value)
@@ -81,7 +80,7 @@ mustache::data dataOf(const Json& json)
 
 } // namespace
 
-void to_json(nlohmann::ordered_json& json, const Estimate& estimate)
+void to_json(Json& json, const Estimate& estimate)
 {
     json = {{"value", estimate.value}, {"standardError", estimate.standardError}};
 }
@@ -149,7 +148,7 @@ std::string filled(const char* pattern, const Json& data, Escape escape)
     return text;
 }
 
-void writeText(const nlohmann::ordered_json& report, std::ostream& out)
+void writeText(const Json& report, std::ostream& out)
 {
     out << filled(
 #include "report/summary.mustache"

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace clepsydra::identification
 {

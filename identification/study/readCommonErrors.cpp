@@ -3,7 +3,6 @@
 #include "study/readValues.h"
 #include "tokens/didYouMean.h"
 
-#include <algorithm>
 #include <tuple>
 
 namespace clepsydra::identification

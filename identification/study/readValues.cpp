@@ -3,7 +3,6 @@
 #include "effects/measuringChain.h"
 #include "tokens/didYouMean.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace clepsydra::identification
