@@ -20,12 +20,12 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
     return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
 }
 
-std::string listed(const std::vector<std::string>& words)
+std::string listed(const std::vector<std::string>& words, const std::string& last)
 {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i)
     {
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+        text += (i == 0 ? "" : i + 1 == words.size() ? last : ", ") + words[i];
     }
     return text;
 }

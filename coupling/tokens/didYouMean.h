@@ -10,8 +10,8 @@ namespace clepsydra
 /// where the word is the name of a known one in an earlier version; otherwise an empty string.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
 
-/// A list as error messages write it: "a, b or c".
-std::string listed(const std::vector<std::string>& words);
+/// A list as error messages write it: "a, b or c". \param last  between the last two words
+std::string listed(const std::vector<std::string>& words, const std::string& last = " or ");
 
 /// The keys of a map, or the first element of each pair.
 template<class Pairs>

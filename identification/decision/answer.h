@@ -2,6 +2,7 @@
 
 #include "decision/calibration.h"
 #include "emulator/library.h"
+#include "tokens/didYouMean.h"
 
 #include <array>
 #include <cmath>
@@ -70,12 +71,8 @@ struct Explanation
 /// Name of an explanation: "no effect", "effect", or "effect with other effect".
 inline std::string nameOf(const Study& study, const std::vector<std::size_t>& effects)
 {
-    std::string name;
-    for (const auto e : effects)
-    {
-        name += (name.empty() ? "" : " with ") + study.effects[e].name;
-    }
-    return name.empty() ? "no effect" : name;
+    const auto names = mapped(effects, [&](std::size_t e) { return study.effects[e].name; });
+    return names.empty() ? "no effect" : listed(names, " with ");
 }
 
 /// Result of the training data. Held-out data do not enter it.

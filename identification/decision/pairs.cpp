@@ -1,6 +1,7 @@
 #include "decision/pairs.h"
 
 #include "lists.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,14 +53,12 @@ bool shareName(const Study& study, const PairFinding& one, const PairFinding& ot
 
 std::string sharedName(const Study& study, const std::vector<PairFinding>& pairs)
 {
-    std::string name;
-    for (const auto e : pairs.front().effects)
-    {
+    const auto names = mapped(pairs.front().effects, [&](std::size_t e) {
         const bool isShared = std::all_of(pairs.begin(), pairs.end(),
             [&](const PairFinding& pair) { return !pair.inSet || contains(pair.effects, e); });
-        name += (name.empty() ? "" : " with ") + (isShared ? study.effects[e].name : study.effects[e].family);
-    }
-    return name;
+        return isShared ? study.effects[e].name : study.effects[e].family;
+    });
+    return listed(names, " with ");
 }
 
 bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs)

@@ -151,14 +151,11 @@ void sayContents(const Study& study, const std::vector<MeasuredCondition>& train
     const auto counted = [](std::size_t count, const std::string& what) {
         return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
     };
-    std::string names;
-    for (const auto& parameter : study.parameters)
-    {
-        names += (names.empty() ? " (" : ", ") + parameter.name;
-    }
+    const std::string names =
+        listed(mapped(study.parameters, [](const Parameter& parameter) { return parameter.name; }), ", ");
     out << counted(study.conditionsOf(Role::training).size(), "training condition") << " with "
         << counted(numbers, "number") << (notMeasured > 0 ? ", some not measured yet" : "") << "; "
-        << counted(study.parameters.size(), "fitted parameter") << names << (names.empty() ? "" : ")") << "; "
+        << counted(study.parameters.size(), "fitted parameter") << (names.empty() ? "" : " (" + names + ')') << "; "
         << counted(study.effects.size(), "effect") << '\n';
     if (!study.leftOut.empty())
     {

@@ -3,6 +3,7 @@
 #include "effects/measuringChain.h"
 #include "emulator/settings.h"
 #include "report/text.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,16 +227,14 @@ std::string describeSize(const Findings& findings, const Explanation& explanatio
     without.amplitudes(e) = 0.0;
     const auto before = numbersAt(*findings.studySimulator, condition, without);
     const auto after = numbersAt(*findings.studySimulator, condition, explanation.setting);
-    std::string text;
-    for (const auto& [entry, formula] : effect.entries)
-    {
+    const auto sizes = mapped(namesOf(effect.entries), [&](const std::string& entry) {
         constexpr double least = 1e-4;
         const double share = after.at(entry) / before.at(entry) - 1.0;
         const std::string size = std::abs(share) < least ? "less than 0.01" : rounded(100.0 * std::abs(share));
-        text += (text.empty() ? "" : ", ") + entry + ' '
-                + (std::isfinite(share) ? size + (share < 0.0 ? " % smaller" : " % larger") : rounded(after.at(entry)));
-    }
-    return text;
+        return entry + ' '
+               + (std::isfinite(share) ? size + (share < 0.0 ? " % smaller" : " % larger") : rounded(after.at(entry)));
+    });
+    return listed(sizes, ", ");
 }
 
 std::vector<Residual> residualsOf(const Findings& findings, const Setting& setting)

@@ -1,6 +1,7 @@
 #include "lists.h"
 #include "report/fitted.h"
 #include "report/text.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cctype>
@@ -19,17 +20,6 @@ namespace
 constexpr const char* sentences =
 #include "report/sentences.mustache"
     ;
-
-/// "this, that and those"
-std::string joined(const std::vector<std::string>& parts, const std::string& last)
-{
-    std::string all;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-    {
-        all += (i == 0 ? "" : i + 1 < parts.size() ? ", " : last) + parts[i];
-    }
-    return all;
-}
 
 std::string capitalised(std::string text)
 {
@@ -52,7 +42,7 @@ std::string meaningOf(const Findings& findings, const Explanation& explanation)
         std::string own = inLine(effect.meaning.empty() ? effect.name : effect.meaning);
         return own.erase(own.find_last_not_of(" .") + 1);
     });
-    const std::string meaning = joined(meanings, ", together with ");
+    const std::string meaning = listed(meanings, ", together with ");
     const std::string size = describeSize(findings, explanation);
     return size.empty() ? meaning : size.rfind(meaning + ' ', 0) == 0 ? size : meaning + " (" + size + ')';
 }
@@ -195,8 +185,8 @@ Json heldOutFacts(const Findings& findings)
     Json facts = {{"before", errorText(isLog, heldOut.before.rmsLogError)}, {"after", nullptr}, {"change", nullptr},
         {"oneMore", errorText(isLog, heldOut.oneMoreParameter.rmsLogError)},
         {"noiseFloor", sizeText(isLog, heldOut.noiseFloor)}, {"better", heldOut.better}, {"complete", heldOut.complete},
-        {"notBetterBecause", joined(heldOut.notBetterBecause, ", and ")},
-        {"notScored", joined(heldOut.notScored, ", ")}};
+        {"notBetterBecause", listed(heldOut.notBetterBecause, ", and ")},
+        {"notScored", listed(heldOut.notScored, ", ")}};
     if (heldOut.nearest)
     {
         facts["withNearest"] = errorText(isLog, heldOut.nearest->rmsLogError);
@@ -219,7 +209,7 @@ Json heldOutFacts(const Findings& findings)
     }
     facts["after"] = errorText(isLog, heldOut.after->rmsLogError);
     facts["change"] = changeText(isLog, heldOut);
-    facts["compared"] = joined(compared, ", and ");
+    facts["compared"] = listed(compared, ", and ");
     facts["left"] = heldOut.after->pValue;
     return facts;
 }
@@ -249,7 +239,7 @@ Json nextFacts(const Study& study, const NextExperiment& next)
                                   + (unit.at("unit") == "1" ? "" : ' ' + unit.at("unit").get<std::string>()));
             }
         }
-        facts["test"] = {{"predicted", joined(numbers, " and ")}};
+        facts["test"] = {{"predicted", listed(numbers, " and ")}};
         return facts;
     }
     Eigen::Index best = 0;
@@ -314,7 +304,7 @@ Json factsOf(const Json& report, const Findings& findings)
     });
     std::vector<std::string> causes =
         mapped(answer.set, [&](const Explanation& each) { return meaningOf(findings, each); });
-    const std::string members = joined(causes, ", or ");
+    const std::string members = listed(causes, ", or ");
     std::string probabilities;
     for (std::size_t i = 0; i < causes.size(); ++i)
     {
@@ -327,8 +317,8 @@ Json factsOf(const Json& report, const Findings& findings)
     Json facts = report;
     facts.update({{"decided", {{nameOf(answer.decision), true}}}, {"effectCount", study.effects.size()},
         {"found", !answer.set.empty()}, {"single", answer.set.size() == 1}, {"predicts", predicts},
-        {"confirmed", isConfirmed}, {"members", members}, {"causes", joined(causes, ", or ")},
-        {"probabilities", probabilities}, {"strained", joined(strainedParameters(findings), " and ")},
+        {"confirmed", isConfirmed}, {"members", members}, {"causes", listed(causes, ", or ")},
+        {"probabilities", probabilities}, {"strained", listed(strainedParameters(findings), " and ")},
         {"otherByRule", answer.unlistedCauseInSet && !(answer.otherProbability >= answer.otherThreshold)},
         {"hints", hintsOf(findings)}, {"atEnds", mapped(valuesAtEnds(findings), capitalised)},
         {"largest", largestOf(study, without)}, {"scatters", answer.emulator->scatters()},
@@ -344,7 +334,7 @@ Json factsOf(const Json& report, const Findings& findings)
             interpolated.push_back(nameOf(study, each.effects));
         }
     }
-    facts["interpolated"] = joined(interpolated, " and ");
+    facts["interpolated"] = listed(interpolated, " and ");
     facts["ofPairs"] = !answer.set.empty() && answer.set.front().effects.size() > 1;
     facts["hint"] = facts["hints"].empty() ? Json() : facts["hints"].front()["is"];
     facts["priors"] = mapped(study.parameters, [](const Parameter& one) -> Json {
@@ -365,7 +355,7 @@ Json factsOf(const Json& report, const Findings& findings)
     if (!acting.empty())
     {
         const auto names = mapped(acting, [&](std::size_t p) { return study.parameters[p].name; });
-        facts["parameters"] = {{"names", capitalised(joined(names, " and "))},
+        facts["parameters"] = {{"names", capitalised(listed(names, " and "))},
             {"prior", rmsInErrors(residualsOf(findings, findings.studySimulator->plainSetting()))},
             {"fitted", rmsInErrors(without)}, {"residual", rmsInErrors(with)}};
     }
@@ -375,14 +365,14 @@ Json factsOf(const Json& report, const Findings& findings)
     }
     if (answer.decision == Decision::named)
     {
-        facts["alike"] = joined(alikeTo(findings), ", ");
+        facts["alike"] = listed(alikeTo(findings), ", ");
     }
     if (findings.heldOut != nullptr && !findings.heldOut->conditions.empty())
     {
         const HeldOutResult& heldOut = *findings.heldOut;
         const bool isCompared = std::isfinite(heldOut.before.rmsLogError.value);
         facts[isCompared ? "heldOut" : "notCompared"] =
-            isCompared ? heldOutFacts(findings) : Json(joined(heldOut.notScored, ", "));
+            isCompared ? heldOutFacts(findings) : Json(listed(heldOut.notScored, ", "));
     }
     if (findings.next != nullptr && !findings.next->empty())
     {
