@@ -27,10 +27,6 @@ double timeAtLevel(const Curve& curve, double level)
 
 double valueAt(const Curve& curve, double time)
 {
-    if (curve.time.empty())
-    {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
     const std::size_t i = std::lower_bound(curve.time.begin(), curve.time.end(), time) - curve.time.begin();
     if (i == 0 || i == curve.time.size())
     {

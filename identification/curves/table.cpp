@@ -149,12 +149,6 @@ bool isNearlyNumbers(const std::vector<std::string>& words)
     return std::any_of(words.begin(), words.end(), isFinite) && std::all_of(words.begin(), words.end(), wasMeant);
 }
 
-std::string shortened(const std::string& text)
-{
-    constexpr std::size_t longest = 40;
-    return text.size() > longest ? text.substr(0, longest) + "..." : text;
-}
-
 /// A column of the tables of a run, one after the other. Where they overlap, the later one is used.
 Curve joined(const std::vector<Table>& tables, const std::string& timeColumn, const std::string& valueColumn)
 {
@@ -231,8 +225,9 @@ Table readTable(const fs::path& file)
         const std::string where = file.string() + ":" + std::to_string(lineNumber) + ": ";
         if (wrong != words.end())
         {
+            constexpr std::size_t longest = 40;
             throw std::runtime_error(
-                where + "'" + shortened(*wrong)
+                where + "'" + wrong->substr(0, longest) + (wrong->size() > longest ? "..." : "")
                 + "' is not a number from -1e30 to 1e30; for a missing value, leave the field empty or write NA or -");
         }
         if (!table.columns.empty() && row.size() != table.columns.size())

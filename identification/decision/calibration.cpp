@@ -87,10 +87,6 @@ double logPrior(const Study& study, std::size_t e)
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
-    if (fit.parameters.size() == 0)
-    {
-        return fit.parameters;
-    }
     const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(fit.parameters.size(), [&] { return normal(random); });
     return fit.parameters + fit.covariance.llt().matrixL() * z;
 }
@@ -311,7 +307,7 @@ struct Calibrator
         for (std::size_t e = 0; e < effects; ++e)
         {
             std::vector<double> amplitudes = evidence.amplitudes(e);
-            amplitudes.erase(std::remove(amplitudes.begin(), amplitudes.end(), 0.0), amplitudes.end());
+            eraseIf(amplitudes, [](double amplitude) { return amplitude == 0.0; });
             if (amplitudes.empty())
             {
                 continue;

@@ -121,10 +121,8 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
         evidence.refine(pair.effects, measured);
     }
     judge();
-    while (!pairs.empty() && !(pairs.back().logOdds >= pairs.front().logOdds - negligibleLogOdds))
-    {
-        pairs.pop_back();
-    }
+    const double least = pairs.empty() ? 0.0 : pairs.front().logOdds - negligibleLogOdds;
+    eraseIf(pairs, [&](const PairFinding& pair) { return !(pair.logOdds >= least); });
     for (auto& pair : pairs)
     {
         pair.fits = evidence.fits(evidence.explanationOf(pair.effects), measured);

@@ -2,6 +2,8 @@
 
 #include "lists.h"
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 
 namespace clepsydra::identification

@@ -3,6 +3,8 @@
 #include "emulator/emulator.h"
 #include "emulator/settings.h"
 
+#include "lists.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "runner/studySimulator.h"
 
+#include <string>
 #include <vector>
 
 namespace clepsydra::identification

@@ -241,14 +241,9 @@ std::vector<Residual> residualsOf(const Findings& findings, const Setting& setti
 {
     const Answer& answer = *findings.answer;
     const Eigen::VectorXd parameters = inSds(*findings.study, setting.parameters);
-    std::vector<Present> present;
-    for (Eigen::Index e = 0; e < setting.amplitudes.size(); ++e)
-    {
-        if (setting.amplitudes(e) != 0.0)
-        {
-            present.push_back({static_cast<std::size_t>(e), setting.amplitudes(e)});
-        }
-    }
+    const auto on =
+        numbersWhere(findings.study->effects.size(), [&](std::size_t e) { return setting.amplitudes(e) != 0.0; });
+    const auto present = mapped(on, [&](std::size_t e) { return Present{e, setting.amplitudes(e)}; });
     std::vector<Residual> all;
     for (const auto& block : answer.layout.blocks)
     {

@@ -27,11 +27,6 @@ void to_json(Json& json, const HeldOutScore& score)
 namespace
 {
 
-std::vector<double> numbers(const Eigen::VectorXd& values)
-{
-    return {values.begin(), values.end()};
-}
-
 template<class Value>
 Json orNull(const std::optional<Value>& value)
 {
@@ -59,11 +54,6 @@ Json explanationJson(const Study& study, const Explanation& explanation)
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
         {"probability", explanation.probability}, {"chiSquare", explanation.chiSquare},
         {"simulated", !explanation.runs.empty()}};
-}
-
-Json textOrNull(const std::string& text)
-{
-    return text.empty() ? Json(nullptr) : Json(text);
 }
 
 /// The independent measurement of an amplitude, the fit without it, and whether the two agree within two standard
@@ -94,7 +84,8 @@ Json effectsJson(const Findings& findings)
             {"interval95", {finding.fit.lower, finding.fit.upper}},
             {"range", {effect.bounds.lower, effect.bounds.upper}}, {"chiSquare", finding.chiSquare},
             {"logOdds", finding.logOdds}, {"probability", finding.probability},
-            {"probabilityNeeded", finding.threshold}, {"notInSetBecause", textOrNull(finding.notInSetBecause)},
+            {"probabilityNeeded", finding.threshold},
+            {"notInSetBecause", finding.notInSetBecause.empty() ? Json() : Json(finding.notInSetBecause)},
             {"measured", measuredJson(effect, finding)}, {"judged", finding.known},
             {"parameters", finding.known ? parametersOf(study, finding.parameters) : Json::object()},
             {"smallestDetectable", answer.visibility.detected(e)}, {"smallestNamed", answer.visibility.named(e)},
@@ -242,13 +233,6 @@ Json nextJson(const Findings& findings)
     return list;
 }
 
-Json emulatorJson(const Answer& answer)
-{
-    return {{"noiseOfARun", numbers(answer.emulator->noise().diagonal().cwiseSqrt())},
-        {"noiseOfAMeasurement", numbers(answer.layout.noise.diagonal().cwiseSqrt())},
-        {"degreesOfFreedom", answer.layout.noiseFreedom}};
-}
-
 } // namespace
 
 Json jsonOf(const Findings& findings)
@@ -283,7 +267,7 @@ Json jsonOf(const Findings& findings)
     }
     json["pValue"] = answer.pValue;
     json["null"] = explanationJson(study, answer.null);
-    json["null"]["parameterSds"] = numbers(answer.null.fits.front().covariance.diagonal().cwiseSqrt());
+    json["null"]["parameterSds"] = Eigen::VectorXd(answer.null.fits.front().covariance.diagonal().cwiseSqrt());
     json["effects"] = effectsJson(findings);
     json["residual"] = residualJson(findings);
     json["numbers"] = trainingNumbers(findings);
@@ -297,7 +281,9 @@ Json jsonOf(const Findings& findings)
         return std::vector<std::string>{study.effects[pair.first].name, study.effects[pair.second].name};
     });
     json["nextExperiment"] = nextJson(findings);
-    json["emulator"] = emulatorJson(answer);
+    json["emulator"] = {{"noiseOfARun", Eigen::VectorXd(answer.emulator->noise().diagonal().cwiseSqrt())},
+        {"noiseOfAMeasurement", Eigen::VectorXd(answer.layout.noise.diagonal().cwiseSqrt())},
+        {"degreesOfFreedom", answer.layout.noiseFreedom}};
     json["runs"] = runsJson(*findings.studySimulator);
     json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.studySimulator->effort().seedsByPurpose}};
     json["assumptions"] = nullptr;

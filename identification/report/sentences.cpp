@@ -4,6 +4,7 @@
 #include "tokens/didYouMean.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -62,7 +63,8 @@ std::string sizeText(bool isLog, double size)
 /// Parameters that the null fit moves far from their priors: "friction 5.9 standard deviations from the guess".
 std::vector<std::string> strainedParameters(const Findings& findings)
 {
-    constexpr double far = 3.0; // standard deviations
+    constexpr double far = 3.0;                                                              // standard deviations
+    constexpr std::array origins = {"independent measurement", "handbook's value", "guess"}; // as in Origin
     std::vector<std::string> names;
     for (std::size_t p = 0; p < findings.study->parameters.size(); ++p)
     {
@@ -70,10 +72,8 @@ std::vector<std::string> strainedParameters(const Findings& findings)
         const double sds = std::abs(findings.answer->null.setting.parameters(p) - one.mean) / one.sd;
         if (sds > far)
         {
-            names.push_back(one.name + ' ' + rounded(sds) + " standard deviations from "
-                            + (one.from == Origin::measured    ? "the independent measurement"
-                                : one.from == Origin::handbook ? "the handbook's value"
-                                                               : "the guess"));
+            names.push_back(one.name + ' ' + rounded(sds) + " standard deviations from the "
+                            + origins[static_cast<std::size_t>(one.from)]);
         }
     }
     return names;
@@ -326,15 +326,10 @@ Json factsOf(const Json& report, const Findings& findings)
         {"leftOut", mapped(study.leftOut, [](const LeftOut& one) { return inLine(one.text()); })},
         {"heldOut", nullptr}});
     addDoubts(facts["effects"]);
-    std::vector<std::string> interpolated; // members of the set without a run at their fit
-    for (const auto& each : answer.set)
-    {
-        if (each.runs.empty() && study.settings.decidingRuns > 0)
-        {
-            interpolated.push_back(nameOf(study, each.effects));
-        }
-    }
-    facts["interpolated"] = listed(interpolated, " and ");
+    const auto interpolated = numbersWhere(answer.set.size(), // members of the set without a run at their fit
+        [&](std::size_t i) { return answer.set[i].runs.empty() && study.settings.decidingRuns > 0; });
+    facts["interpolated"] =
+        listed(mapped(interpolated, [&](std::size_t i) { return nameOf(study, answer.set[i].effects); }), " and ");
     facts["ofPairs"] = !answer.set.empty() && answer.set.front().effects.size() > 1;
     facts["hint"] = facts["hints"].empty() ? Json() : facts["hints"].front()["is"];
     facts["priors"] = mapped(study.parameters, [](const Parameter& one) -> Json {

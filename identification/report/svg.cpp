@@ -1,5 +1,6 @@
 #include "report/svg.h"
 
+#include "lists.h"
 #include "report/text.h"
 
 #include <kainjow/mustache.hpp>
@@ -32,8 +33,7 @@ public:
           to_(to)
     {
         constexpr double farApart = 5.0;
-        values.erase(
-            std::remove_if(values.begin(), values.end(), [](double one) { return !std::isfinite(one); }), values.end());
+        eraseIf(values, [](double one) { return !std::isfinite(one); });
         values.resize(std::max<std::size_t>(1, values.size()));
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         isLog_ = mayBeLog && *low > 0.0 && *high > farApart * *low;

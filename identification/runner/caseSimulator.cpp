@@ -35,13 +35,6 @@ constexpr std::ptrdiff_t linesOfLog = 12;
 /// With less free space on a disk than this, a file written there may be incomplete [bytes].
 constexpr std::uintmax_t leastRoom = 256 * 1024;
 
-/// Text in which bytes that are no UTF-8 are replaced: programs write what they like into their logs.
-std::string asUtf8(const std::string& text)
-{
-    using nlohmann::json;
-    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
-}
-
 /// The last lines of a log.
 std::string endOfLog(const fs::path& file)
 {
@@ -52,7 +45,10 @@ std::string endOfLog(const fs::path& file)
         last.push_back("\n    " + line);
         last.erase(last.begin(), last.end() - std::min<std::ptrdiff_t>(last.size(), linesOfLog));
     }
-    return asUtf8(std::accumulate(last.begin(), last.end(), std::string()));
+    // Bytes that are no UTF-8 are replaced: programs write what they like into their logs.
+    using nlohmann::json;
+    const json text = std::accumulate(last.begin(), last.end(), std::string());
+    return json::parse(text.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 /// Whether a file of the case is a result of an earlier run. Time directories after the start count as results, because

@@ -45,17 +45,13 @@ void requireOrder(const Table& table, const std::vector<double>& time)
     }
 }
 
-/// Number of rows and ranges of a measured curve, by which users can check columns and units.
-std::string rangesOf(const Curve& curve)
+/// Writes number of rows, ranges and features of a measured curve, by which users can check columns and units.
+/// \return whether the curve has any of the features
+bool sayContents(const Study& study, const Curve& curve, std::ostream& out)
 {
     const auto [lowest, highest] = std::minmax_element(curve.value.begin(), curve.value.end());
-    return std::to_string(curve.time.size()) + " rows, time " + textOf(curve.time.front()) + " to "
-           + textOf(curve.time.back()) + " s, value " + textOf(*lowest) + " to " + textOf(*highest) + " (SI units)";
-}
-
-/// Writes the features of a curve. \return whether the curve has any of them
-bool sayFeatures(const Study& study, const Curve& curve, std::ostream& out)
-{
+    out << curve.time.size() << " rows, time " << textOf(curve.time.front()) << " to " << textOf(curve.time.back())
+        << " s, value " << textOf(*lowest) << " to " << textOf(*highest) << " (SI units)";
     bool any = false;
     for (const auto& feature : study.features)
     {
@@ -106,8 +102,7 @@ void checkMeasurements(const Study& study, std::ostream& out)
                 any = true;
                 continue;
             }
-            out << rangesOf(curve);
-            any = sayFeatures(study, curve, out) || any;
+            any = sayContents(study, curve, out) || any;
         }
         if (!any)
         {
