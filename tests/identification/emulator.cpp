@@ -317,6 +317,18 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
     EXPECT_EQ(emulator[0]->logScatter.count(0), 0U);
 }
 
+/// A run in condition 0 with effect 1 alone.
+Simulation runOfEffect(const StudySimulator& studySimulator, double amplitude, double feature)
+{
+    Simulation run;
+    run.setting = studySimulator.plainSetting();
+    run.setting.amplitudes(1) = amplitude;
+    run.features = Eigen::VectorXd::Constant(1, feature);
+    run.plain.time = {0, 1};
+    run.plain.value = {1, 0};
+    return run;
+}
+
 /// Repeats at half the amplitude have the square root of the factor, and several groups of repeats in one condition count
 /// together. Taking each group for one at amplitude 1 gives half the logarithm here.
 TEST(Emulator, ScatterGrowsWithTheAmplitude)
@@ -330,13 +342,7 @@ TEST(Emulator, ScatterGrowsWithTheAmplitude)
     std::normal_distribution<double> normal;
     std::vector<Simulation> runs;
     const auto add = [&](double amplitude) {
-        Simulation run;
-        run.setting = studySimulator.plainSetting();
-        run.setting.amplitudes(1) = amplitude;
-        run.features = Eigen::VectorXd::Constant(1, 0.1 * std::exp(1.2 * amplitude) * normal(random));
-        run.plain.time = {0, 1};
-        run.plain.value = {1, 0};
-        runs.push_back(run);
+        runs.push_back(runOfEffect(studySimulator, amplitude, 0.1 * std::exp(1.2 * amplitude) * normal(random)));
     };
     for (int repeat = 0; repeat < 200; ++repeat)
     {
@@ -346,6 +352,29 @@ TEST(Emulator, ScatterGrowsWithTheAmplitude)
     }
     const Emulator emulator(study, studySimulator, runs, allFeatures(study));
     EXPECT_NEAR(emulator[0]->logScatter.at(1)(0), 1.2, 0.3);
+}
+
+/// Two repeats at an amplitude of 0.025 that differ by 5.7 standard deviations of the noise. Extrapolated to amplitude 1 the
+/// scatter would be e^90 times as large, and data drawn with it would be infinite.
+TEST(Emulator, TwoRunsOfASmallAmplitudeSayLittleOfTheScatter)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearSimulator simulator;
+    const StudySimulator studySimulator(study, simulator);
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> normal;
+    std::vector<Simulation> runs;
+    for (int repeat = 0; repeat < 200; ++repeat)
+    {
+        runs.push_back(runOfEffect(studySimulator, 0.0, 0.1 * normal(random)));
+    }
+    runs.push_back(runOfEffect(studySimulator, 0.025, 0.0));
+    runs.push_back(runOfEffect(studySimulator, 0.025, 0.8));
+    const Emulator emulator(study, studySimulator, runs, allFeatures(study));
+    ASSERT_EQ(emulator[0]->logScatter.count(1), 1U);
+    EXPECT_GT(emulator[0]->logScatter.at(1)(0), 0.0);
+    EXPECT_LT(emulator[0]->logScatter.at(1)(0), 1.0);
 }
 
 /// ln W = 3 x + ...: an error of 0.01 in x gives 0.03, and a gain of 2 % gives 0.02. An effect that was measured to a
