@@ -42,11 +42,13 @@ void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& resu
         const double drag = result.received[static_cast<std::size_t>(particle)].implicitCoefficientTime;
         const FluidAtParticle& fluid = particles.state[particle].fluid;
         const auto moves = [&] { return !result.changeOfVelocity.col(particle).isZero(0); };
+        const auto perMassOfFluid = [&](double value) {
+            return (1 - fluid.voidFraction) * value
+                   / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction);
+        };
         if (checksExplicitCoupling)
         {
-            fastestHere = std::max(
-                fastestHere, (1 - fluid.voidFraction) * (drag / result.timeStep)
-                                 / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction));
+            fastestHere = std::max(fastestHere, perMassOfFluid(drag / result.timeStep));
         }
         if (checksAddedMass)
         {
@@ -54,9 +56,7 @@ void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& resu
                 result.received[static_cast<std::size_t>(particle)].addedMassTime / result.timeStep;
             const double mass = particles.mass[particle];
             const double reacting = moves() ? addedMass * mass / (mass + addedMass) : addedMass;
-            largestHere = std::max(
-                largestHere, (1 - fluid.voidFraction) * reacting
-                                 / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction));
+            largestHere = std::max(largestHere, perMassOfFluid(reacting));
         }
         if (checksFilter && fluid.voidFraction < looseBed && moves())
         {
@@ -120,8 +120,8 @@ void DragTimeChecks::checkAddedMass(double largest)
     {
         WarningInFunction
             << "With momCoupleModels (explicitCouple) the fluid receives the reaction to the particles' added mass "
-               "after "
-            << "the coupling step. Where the added mass is more than the mass of the fluid between the particles, here "
+            << "after the coupling step. Where the added mass is more than the mass of the fluid between the "
+               "particles, here "
             << largest
             << " times as much, errors grow from step to step, whatever the coupling step. Use implicitCouple. "
             << "This warning is printed once" << endl;

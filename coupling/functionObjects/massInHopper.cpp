@@ -94,7 +94,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     // OpenFOAM executes function objects only after the first step, but the table should begin at the start time.
     if (mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
-        updateIds();
+        look();
         if (lastSample_ < 0)
         {
             sample();
@@ -199,12 +199,9 @@ bool MassInHopper::execute()
         sample();
         stopIfFlowStopped();
     }
-    else if (time_.writeTime())
+    else if (time_.writeTime() && returnReduce(look().anyHasLeft, orOp<bool>()))
     {
-        if (returnReduce(updateIds(), orOp<bool>()))
-        {
-            setProperty(departedEntry, true);
-        }
+        setProperty(departedEntry, true);
     }
     return true;
 }
@@ -223,19 +220,8 @@ void MassInHopper::sample()
         return;
     }
 
-    const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
-    const ParticlesView particles = observed.particles();
-    double massHere = 0;
-    double countHere = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        if (hopper_->contains(observed.positionInBox(particle)))
-        {
-            massHere += particles.mass[particle];
-            ++countHere;
-        }
-    }
-    const RankNumbers all = RankTotals::of({{massHere, countHere}, {updateIds() ? 1.0 : 0.0}});
+    const Look here = look();
+    const RankNumbers all = RankTotals::of({{here.mass, here.count}, {here.anyHasLeft ? 1.0 : 0.0}});
     const scalar mass = all.sums[0];
     const auto count = static_cast<label>(all.sums[1]);
 
@@ -258,8 +244,9 @@ void MassInHopper::sample()
     lastSample_ = now;
 }
 
-bool MassInHopper::updateIds()
+MassInHopper::Look MassInHopper::look()
 {
+    Look found;
     const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
     const ParticlesView particles = observed.particles();
     List<DynamicList<label>> toRanks(Pstream::nProcs());
@@ -267,6 +254,8 @@ bool MassInHopper::updateIds()
     {
         if (hopper_->contains(observed.positionInBox(particle)))
         {
+            found.mass += particles.mass[particle];
+            ++found.count;
             const label id = particles.id[particle];
             toRanks[id % Pstream::nProcs()].append(id);
         }
@@ -280,7 +269,8 @@ bool MassInHopper::updateIds()
     }
     std::sort(now.begin(), now.end());
     ids_.swap(now);
-    return !std::includes(ids_.begin(), ids_.end(), now.begin(), now.end());
+    found.anyHasLeft = !std::includes(ids_.begin(), ids_.end(), now.begin(), now.end());
+    return found;
 }
 
 void MassInHopper::stopIfFlowStopped()

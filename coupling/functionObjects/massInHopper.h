@@ -65,9 +65,16 @@ private:
     void setHopper(const Foam::polyPatch& wall, const Vector3d& axis);
     void sample();
     void stopIfFlowStopped();
+    /// The particles in the hopper: mass [kg] and number of those on this rank, and whether an id of this rank's share is no
+    /// longer among them.
+    struct Look
+    {
+        double mass = 0;
+        double count = 0;
+        bool anyHasLeft = false;
+    };
     /// Sets `ids_` to those of the particles that are in the hopper now. Collective.
-    /// \return whether an id of this rank's share is no longer among them
-    bool updateIds();
+    Look look();
 
     std::unique_ptr<HopperCylinder> hopper_;
     std::unique_ptr<TrailingRate> rate_;
