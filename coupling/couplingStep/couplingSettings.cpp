@@ -177,7 +177,8 @@ std::vector<std::string> CouplingSettings::descriptions() const
         ddtVoidFraction_
             ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
             : std::string("d(eps)/dt      OFF: WARNING, dilation of the particles does not move the fluid, so a "
-                          "submerged hopper has no surge"),
+                          "submerged hopper has no surge")
+                  + (ddtSmoothingTime_ > 0 ? "; smoothingTime has no effect" : ""),
         particlesOutsideMesh_
             ? "particles      may be in parts of the DEM box without mesh, where no fluid acts on them"
             : "particles      must be in the mesh",

@@ -92,6 +92,7 @@ private:
             {
                 continue;
             }
+            requireReach("reach", reach);
             const double distance = apart.norm();
             const Vector3d normal = apart / distance;
             const double approach = (near.velocity.col(first) - near.velocity.col(second)).dot(normal);
@@ -117,13 +118,27 @@ private:
         for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
             const double radius = particles.radius[particle];
+            const double reach = 2 * radius * wallReach_;
+            requireReach("wallReach", reach);
             const double gap = wall.distance(particles.position.col(particle)) - radius;
             const double coefficient =
                 particles.state[particle].fluid.submergedFraction
-                * closures::wallSqueezeCoefficient(fluid_.viscosityAt(particles.position.col(particle)), radius, gap,
-                    roughness_, 2 * radius * wallReach_);
+                * closures::wallSqueezeCoefficient(
+                    fluid_.viscosityAt(particles.position.col(particle)), radius, gap, roughness_, reach);
             requireStable(coefficient, particles.mass[particle], sum.timeStep);
             sum.mutual.col(particle) -= coefficient * wall.normal.dot(particles.velocity.col(particle)) * wall.normal;
+        }
+    }
+
+    /// Where the roughness exceeds the reach, no force ever acts.
+    void requireReach(const char* entry, double reach) const
+    {
+        if (roughness_ >= reach)
+        {
+            FatalErrorInFunction << "lubricationForce would never act: the roughness of " << roughness_ << " m is not "
+                                 << "below the distance of " << reach << " m that " << entry << " gives for these "
+                                 << "particles; allowed: a smaller roughness or a larger " << entry
+                                 << Foam::exit(Foam::FatalError);
         }
     }
 

@@ -86,15 +86,18 @@ std::vector<std::string> split(const std::string& line, char separator)
     return parts;
 }
 
-std::vector<std::string> fields(const std::string& row)
+std::string withPoints(std::string line)
 {
-    std::string line = withoutRoundBrackets(row);
-    const char separator = separatorOf(line);
-    if (separator == ';')
-    {
-        std::replace(line.begin(), line.end(), ',', '.');
-    }
-    return split(line, separator);
+    std::replace(line.begin(), line.end(), ',', '.');
+    return line;
+}
+
+/// \param tabs  whether tabs separate the columns of the file, and commas are decimal commas
+std::vector<std::string> fields(const std::string& row, bool tabs)
+{
+    const std::string line = withoutRoundBrackets(row);
+    const char separator = tabs ? '\t' : separatorOf(line);
+    return split(separator == ';' || tabs ? withPoints(line) : line, separator);
 }
 
 /// Titles of the columns. If blanks separate the titles, a field in brackets is the unit of the title before it.
@@ -139,6 +142,25 @@ std::optional<double> numberOf(const std::string& text)
     const auto number = numberOfAll(text);
     const bool isPlain = text.find_first_not_of("0123456789+-.eE") == std::string::npos;
     return isPlain && number && std::abs(*number) <= largest ? number : std::nullopt;
+}
+
+/// Whether a line is a row of numbers with decimal commas, separated by tabs.
+bool hasTabsAndDecimalCommas(const std::string& line)
+{
+    if (!holds(line, "\t") || !holds(line, ","))
+    {
+        return false;
+    }
+    const auto isDigit = [&](std::size_t at) { return at < line.size() && line[at] >= '0' && line[at] <= '9'; };
+    for (std::size_t at = line.find(','); at != std::string::npos; at = line.find(',', at + 1))
+    {
+        if (at == 0 || !isDigit(at - 1) || !isDigit(at + 1))
+        {
+            return false;
+        }
+    }
+    const auto words = fields(line, true);
+    return std::all_of(words.begin(), words.end(), [](const auto& word) { return numberOf(word).has_value(); });
 }
 
 /// Whether a row of numbers has at least one valid number and others that are refused, as inf, nan or 1e308.
@@ -193,17 +215,25 @@ std::size_t Table::index(const std::string& column) const
 
 Table readTable(const fs::path& file)
 {
-    std::ifstream lines(file);
-    if (!lines)
+    std::ifstream content(file);
+    if (!content)
     {
         throw std::runtime_error(file.string() + ": cannot be read");
     }
-    Table table;
-    std::string line;
-    std::string header;
-    for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(content, line);)
     {
-        line = trimmed(lineNumber == 1 && line.rfind(byteOrderMark, 0) == 0 ? line.substr(byteOrderMark.size()) : line);
+        lines.push_back(lines.empty() && line.rfind(byteOrderMark, 0) == 0 ? line.substr(byteOrderMark.size()) : line);
+    }
+    // One row is enough to tell, since in others the numbers may be whole or the last fields empty.
+    const bool tabs = std::any_of(lines.begin(), lines.end(), hasTabsAndDecimalCommas);
+    Table table;
+    std::string header;
+    int lineNumber = 0;
+    for (const std::string& whole : lines)
+    {
+        ++lineNumber;
+        const std::string line = trimmed(whole);
         if (line.empty())
         {
             continue;
@@ -213,7 +243,7 @@ Table readTable(const fs::path& file)
             header = table.columns.empty() ? trimmed(line.substr(1)) : header;
             continue;
         }
-        const auto words = fields(line);
+        const auto words = fields(tabs ? whole : line, tabs); // the last field may be empty
         const auto row = mapped(words, [](const std::string& word) { return numberOf(word); });
         const auto wrong = words.begin() + (std::find(row.begin(), row.end(), std::nullopt) - row.begin());
         // Names and other text may stand above the numbers, but a row with an invalid number is an error.
@@ -244,7 +274,10 @@ Table readTable(const fs::path& file)
     }
     if (table.columns.empty())
     {
-        throw std::runtime_error(file.string() + ": contains no numbers");
+        throw std::runtime_error(
+            file.string()
+            + ": contains no line of numbers; allowed: columns separated by commas, semicolons, tabs "
+              "or spaces, with decimal commas beside semicolons or tabs");
     }
     const auto titles = titlesOf(header);
     if (titles.size() == table.columns.size())

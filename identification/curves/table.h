@@ -22,9 +22,9 @@ struct Table
     std::size_t index(const std::string& column) const;
 };
 
-/// Reads a table whose columns are separated by commas, semicolons (with decimal points or commas) or white space. The
-/// last text line before the numbers, which may begin with #, names the columns; other lines that begin with # are
-/// comments. Brackets of vectors are ignored, as in OpenFOAM's files.
+/// Reads a table whose columns are separated by commas, semicolons or white space, with decimal points, or with decimal
+/// commas beside semicolons or tabs. The last text line before the numbers, which may begin with #, names the columns;
+/// other lines that begin with # are comments. Brackets of vectors are ignored, as in OpenFOAM's files.
 /// \throws std::runtime_error with file and line
 Table readTable(const std::filesystem::path& file);
 

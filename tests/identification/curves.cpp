@@ -83,19 +83,22 @@ TEST(Curves, CsvWithGapsAndErrorsWithTheirLine)
     }
 }
 
-/// Peculiarities of spreadsheets: a byte order mark, decimal commas with semicolons, tabs around empty cells, \r\n.
+/// Peculiarities of spreadsheets: a byte order mark, decimal commas with semicolons or tabs, tabs around empty cells, \r\n.
 TEST(Curves, TablesOfSpreadsheets)
 {
     const TemporaryFolder folder;
     const Curve expected{{0, 0.5, 1.5}, {10, 9.25, 7}};
     for (const std::string text : {"\xEF\xBB\xBFt [s];m [g]\r\n0;10\r\n0,5;9,25\r\n1;\r\n1,5;7\r\n",
              "t [s]\tnote\tm [g]\n0\t\t10\n.5\t\t9.25\n1.5\t\t7\n", "t;m;\n0;10;\n0,5;9,25;\n1,5;7;\n",
-             "\"t [s]\", \"m [g]\"\n0, 10\n.5, 9.25\n1.5, 7\n"})
+             "t [s]\tm [g]\n0\t10\n0,5\t9,25\n1\t\n1,5\t7\n", "t\tm\r\n0\t10\r\n0,5\t9,25\r\n1,0\t\r\n1,5\t7\r\n",
+             "t,m\n0,\t10\n.5,\t9.25\n1.5,\t7\n", "\"t [s]\", \"m [g]\"\n0, 10\n.5, 9.25\n1.5, 7\n"})
     {
         const Curve curve = readCurve(folder.write("a.csv", text), "t", "m");
         EXPECT_EQ(curve.time, expected.time) << text;
         EXPECT_EQ(curve.value, expected.value) << text;
     }
+    // Without its tab, the row is not a row of two numbers.
+    EXPECT_THROW(readTable(folder.write("b.csv", "1,0\n1,5\t7\n")), std::runtime_error);
 }
 
 /// Units in any brackets, with or without a blank before them, are not part of the name, but may be given with it.

@@ -134,7 +134,7 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     Bench bench;
     writeHopperFiles(bench);
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/hopperQuick measured"), 0) << bench.output;
-    EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: contains no numbers"));
+    EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: contains no line of numbers; allowed: columns"));
     EXPECT_THAT(bench.output, HasSubstr("condition wet10: wet10a.csv wet10b.csv wet10c.csv (repeats)"));
     EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.checked: FILL IN"));
     const std::string study = "study.yaml";
@@ -239,7 +239,7 @@ TEST(Draft, RefusesAndWritesNothing)
     bench.write("mine.yaml", "mine\n");
     const std::map<std::string, std::string> refused = {
         {"hopperQuick folder", "folder: contains no table of numbers"},
-        {"hopperQuick folder/notes.txt", "notes.txt: contains no numbers"},
+        {"hopperQuick folder/notes.txt", "notes.txt: contains no line of numbers"},
         {"hopperQuick fall.csv", "writes a mass"},
         {"settlingParticle mass.csv", "writes a length"},
         {"settlingParticle fall.csv mass.csv", "no column 't_s'"},

@@ -3,7 +3,9 @@
 
 #include "closures/wallCorrection.h"
 #include "forcesOnParticles.h"
+#include "support/errorOf.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace clepsydra::tests
@@ -90,6 +92,23 @@ TEST(Lubrication, HasAReachOfItsOwnAtWalls)
     EXPECT_GT(forceAt(1.9e-3, "reach 0.05; wallReach 1;"), 0);
     EXPECT_EQ(forceAt(2.1e-3, "reach 0.05; wallReach 1;"), 0);
     EXPECT_THROW(ForcesOnParticles(begin + "wallReach 0; }"), Foam::IOerror);
+}
+
+/// A roughness above the reach was accepted, and the force was zero everywhere.
+TEST(Lubrication, RefusesARoughnessAboveItsReach)
+{
+    const auto errorWith = [](const std::string& properties) {
+        ForcesOnParticles test("forceModels (lubricationForce); lubricationForceProps { roughness 1e-4; " + properties
+                                   + "walls ( ((0 0 0) (0 0 1)) ); }",
+            weightlessWater);
+        test.engine().requestPairs(0.1, submergedFractionInState);
+        test.engine().addParticle(1, {0, 0, 1.05 * radius}, radius, 2500, {0, 0, -0.01});
+        test.engine().addParticle(2, {0, 0, 3.07 * radius}, radius, 2500, {0, 0, -0.01});
+        return errorOf([&] { test.engine().advance(1); });
+    };
+    EXPECT_THAT(errorWith("reach 0.04; wallReach 1; "), testing::HasSubstr("larger reach"));
+    EXPECT_THAT(errorWith("reach 0.1; wallReach 0.04; "), testing::HasSubstr("larger wallReach"));
+    EXPECT_EQ(errorWith("reach 0.06; "), "");
 }
 
 /// Where there is no fluid there is no film. A wall's force is that of SlowsTheApproachToAWall times the part of the particle in
