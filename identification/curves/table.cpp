@@ -86,18 +86,16 @@ std::vector<std::string> split(const std::string& line, char separator)
     return parts;
 }
 
-std::string withPoints(std::string line)
-{
-    std::replace(line.begin(), line.end(), ',', '.');
-    return line;
-}
-
 /// \param tabs  whether tabs separate the columns of the file, and commas are decimal commas
 std::vector<std::string> fields(const std::string& row, bool tabs)
 {
-    const std::string line = withoutRoundBrackets(row);
+    std::string line = withoutRoundBrackets(row);
     const char separator = tabs ? '\t' : separatorOf(line);
-    return split(separator == ';' || tabs ? withPoints(line) : line, separator);
+    if (separator == ';' || tabs)
+    {
+        std::replace(line.begin(), line.end(), ',', '.');
+    }
+    return split(line, separator);
 }
 
 /// Titles of the columns. If blanks separate the titles, a field in brackets is the unit of the title before it.

@@ -46,7 +46,7 @@ MEAN_FINDING = (
 RATIO_FINDING = "in the simulation water changes the number between clogs more than was measured"
 SPREAD_FINDING = "the distribution is not exponential: an arch that was broken leaves the bed above it as it was"
 PROBABILITY_FINDING = (
-    "not exponential: events are short while little of a filling has left, the first of each 5 to 11 particles with a "
+    "not exponential: events are short while little of a filling has left, the first of each 5 to 16 particles with a "
     "hole of 3 diameters, and grow as it empties"
 )
 
