@@ -31,6 +31,21 @@ void refuseFormula(const YamlPlace& place)
             + "' is a formula in the amplitude a, which a switch does not have; allowed is the value of the entry");
 }
 
+/// Whether a text computes something from entries, as `hopperDiameter*2`; a number or a word does not.
+bool computes(const std::string& text)
+{
+    try
+    {
+        const Expression formula(text);
+        return text.find_first_of("+*/(^") != std::string::npos
+               && text.find_first_not_of("0123456789.+-eE") != std::string::npos;
+    }
+    catch (const std::invalid_argument&)
+    {
+        return false;
+    }
+}
+
 void readEntries(const YamlPlace& place, Effect& effect)
 {
     for (const auto& [entry, value] : place.map())
@@ -38,6 +53,9 @@ void readEntries(const YamlPlace& place, Effect& effect)
         if (effect.isSwitch)
         {
             refuseFormula(value);
+        }
+        if (effect.isSwitch && !computes(value.text()))
+        {
             requireEntryValue(value);
             effect.textEntries[entry] = value.text();
         }

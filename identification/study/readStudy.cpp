@@ -103,6 +103,7 @@ std::string objectionTo(const YamlPlace& place, const Effect& effect, const Stud
                 return entry + " is '" + entries[c].at(entry) + "' in the case, which is no number for a formula";
             }
             const double value = valueOf(place.at("set").at(entry), formula, atZero[c]);
+            changes = changes || !isUnchanged(value, own->second);
             // Without `a` it is a setting that the effect needs, as a shorter step.
             if (formula.holds("a") && !isUnchanged(value, own->second))
             {

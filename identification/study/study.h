@@ -116,7 +116,7 @@ struct Effect
     std::string meaning;
     std::string hint;                               // how to measure it independently
     std::string family;                             // common to variants of one physical effect; may be empty
-    std::map<std::string, Expression> entries;      // formulas in the entries and the amplitude a
+    std::map<std::string, Expression> entries;      // formulas in the entries and, but for a switch, the amplitude a
     std::map<std::string, std::string> textEntries; // values that a switch sets, as text
     std::string chainOperation;          // operation of the measuring chain; empty: an effect of the simulator
     std::optional<Expression> chainSize; // formula in a

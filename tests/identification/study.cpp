@@ -359,6 +359,8 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:13:", "unknown name 'wall'"},
         {"set: { particleDiameter: \"particleDiameter*(1 + a)\" }, amplitude: [-1, 1]",
             "set: { wall: 0.3 }, switch: true", "study.yaml:13:", "the case has these values already"},
+        {"set: { particleDiameter: \"particleDiameter*(1 + a)\" }, amplitude: [-1, 1]",
+            "set: { wall: wall*1 }, switch: true", "study.yaml:13:", "the case has these values already"},
         {"particleDiameter: \"particleDiameter*(1 + a)\"", "lift: \"1 + a\"",
             "study.yaml:13:", "lift is 'off' in the case"},
         {"role: training", "role: training, measured: { numbers: [ { feature: logMeanRate, values: [], unit: g/s } ] }",
@@ -576,6 +578,19 @@ TEST(StudyFile, LibraryEffectsThatDoNotSuitTheCaseAreLeftOut)
         (std::vector<std::string>{"roll (the case has no entry rolling)",
             "rubber (wall is 0.3 in the case, but 0 at a = 0)", "noLift (the case has these values already)"}))
         << "the study's own 'size' is there";
+}
+
+/// A switch may compute a value from the case's; numbers and words are written as they stand.
+TEST(StudyFile, ASwitchSetsValuesAndFormulas)
+{
+    const TemporaryFolder folder;
+    const Study study = studyOf(
+        folder, replaced(goodStudy, "set: { particleDiameter: \"particleDiameter*(1 + a)\" }, amplitude: [-1, 1]",
+                    "set: { particleDiameter: particleDiameter*2, wall: 1e-1, lift: on }, switch: true"));
+    const Effect& effect = study.effects.front();
+    EXPECT_EQ(effect.entries.at("particleDiameter")({{"particleDiameter", 0.003}}), 0.006);
+    EXPECT_EQ(effect.entries.size(), 1U);
+    EXPECT_EQ(effect.textEntries, (std::map<std::string, std::string>{{"wall", "1e-1"}, {"lift", "on"}}));
 }
 
 /// Effects of the water are left out of a study of dry conditions, with their parameters; the other effects keep
