@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <tuple>
 
@@ -13,37 +14,34 @@ namespace clepsydra::identification
 namespace
 {
 
-/// A formula in a switch would be written into the case as text, and all runs with it would fail.
-void refuseFormula(const YamlPlace& place)
+std::optional<Expression> formulaIn(const std::string& text)
 {
-    const std::string text = place.text();
-    bool isFormula = false;
     try
     {
-        isFormula = text != "a" && Expression(text).holds("a");
+        return Expression(text);
     }
     catch (const std::invalid_argument&)
     {
-        // The text is no formula.
+        return std::nullopt;
     }
-    place.failIf(isFormula,
-        "'" + text
-            + "' is a formula in the amplitude a, which a switch does not have; allowed is the value of the entry");
+}
+
+void refuseAmplitude(const YamlPlace& place)
+{
+    const std::string text = place.text();
+    const auto formula = formulaIn(text);
+    place.failIf(
+        text != "a" && formula && formula->holds("a"), "'" + text
+                                                           + "' is a formula in the amplitude a, which a switch does "
+                                                             "not have; allowed is the value of the entry, or a "
+                                                             "formula in the case's entries");
 }
 
 /// Whether a text computes something from entries, as `hopperDiameter*2`; a number or a word does not.
 bool computes(const std::string& text)
 {
-    try
-    {
-        const Expression formula(text);
-        return text.find_first_of("+*/(^") != std::string::npos
-               && text.find_first_not_of("0123456789.+-eE") != std::string::npos;
-    }
-    catch (const std::invalid_argument&)
-    {
-        return false;
-    }
+    return text.find_first_of("+*/(^") != std::string::npos
+           && text.find_first_not_of("0123456789.+-eE") != std::string::npos && formulaIn(text);
 }
 
 void readEntries(const YamlPlace& place, Effect& effect)
@@ -52,7 +50,7 @@ void readEntries(const YamlPlace& place, Effect& effect)
     {
         if (effect.isSwitch)
         {
-            refuseFormula(value);
+            refuseAmplitude(value);
         }
         if (effect.isSwitch && !computes(value.text()))
         {
