@@ -191,7 +191,15 @@ CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
       fingerprint_(fingerprintOf(study, caseFolder_)),
       progress_(progress)
 {
-    fs::create_directories(cache_);
+    try
+    {
+        fs::create_directories(cache_);
+    }
+    catch (const fs::filesystem_error& error)
+    {
+        throw FileError("The folder of stored runs cannot be made: " + cache_.string() + ": " + error.code().message()
+                        + ". The entry `work` of the study names another one.");
+    }
     if (!fs::exists(study.work / ".gitignore"))
     {
         std::ofstream(study.work / ".gitignore") << "*\n";

@@ -33,6 +33,7 @@ STUDIES = {
     "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
     "gasBed": ("a bed that air fluidises (van Wachem et al. 2001)", "Beetstra's drag, one friction"),
     "slotHopper": ("plastic spheres and cylinders through a slot (digitised)", "spheres of the cylinders' volume"),
+    "dischargeGrid": ("rates of two laws, particles of 0.5 to 2 mm", "narrow and shallow hoppers"),
     "paperRates": ("the published hopper's two rates, with corrections as known earlier", "one friction"),
 }
 

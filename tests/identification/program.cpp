@@ -518,6 +518,16 @@ TEST(Program, SaysWhatIsWrongAndWritesNothing)
     EXPECT_FALSE(fs::exists(workshop.path() / "results"));
 }
 
+/// A folder of stored runs that cannot be made is named, with the entry that chooses another one.
+TEST(Program, NamesTheFolderThatCannotBeMade)
+{
+    Workshop workshop;
+    workshop.measure({});
+    workshop.append("work: study.yaml/runs\n");
+    EXPECT_NE(workshop.run("run"), 0);
+    EXPECT_THAT(workshop.output, AllOf(HasSubstr("study.yaml/runs/cache: Not a directory"), HasSubstr("`work`")));
+}
+
 /// If the disk is full when the reports are written, the old reports stay complete, the error names the file, and `run`
 /// and `report` fail. Without a check, half a report would replace the old one.
 TEST(Program, FullDiskLeavesTheOldReports)
