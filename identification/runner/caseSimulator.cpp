@@ -191,13 +191,11 @@ CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
       fingerprint_(fingerprintOf(study, caseFolder_)),
       progress_(progress)
 {
-    try
+    std::error_code reason;
+    fs::create_directories(cache_, reason);
+    if (reason)
     {
-        fs::create_directories(cache_);
-    }
-    catch (const fs::filesystem_error& error)
-    {
-        throw FileError("The folder of stored runs cannot be made: " + cache_.string() + ": " + error.code().message()
+        throw FileError("The folder of stored runs cannot be made: " + cache_.string() + ": " + reason.message()
                         + ". The entry `work` of the study names another one.");
     }
     if (!fs::exists(study.work / ".gitignore"))

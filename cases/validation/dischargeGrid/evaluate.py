@@ -167,14 +167,12 @@ def fit(line: list[Cell], deviation: float) -> LawOfOne:
     holes = np.array([cell.hole for cell in line])
     values = np.array([np.mean(cell.ratios) for cell in line]) ** (1 / exponent) * (holes - CUT_OFF[medium])
     errors = values * deviation / exponent / np.sqrt([len(cell.ratios) for cell in line])
-    matrix = np.array([np.ones(len(line)), holes]).T / errors[:, None]
-    covariance = np.linalg.inv(matrix.T @ matrix)
-    (offset, slope) = covariance @ matrix.T @ (values / errors)
-    gradient = np.array([-1 / slope, offset / slope**2])
-    left = values / errors - matrix @ (offset, slope)
+    (slope, offset), covariance = np.polyfit(holes, values, 1, w=1 / errors, cov="unscaled")
+    gradient = np.array([offset / slope**2, -1 / slope])
+    left = (values - slope * holes - offset) / errors
     return LawOfOne(
         slope**exponent,
-        exponent * slope ** (exponent - 1) * np.sqrt(covariance[1, 1]),
+        exponent * slope ** (exponent - 1) * np.sqrt(covariance[0, 0]),
         -offset / slope,
         float(np.sqrt(gradient @ covariance @ gradient)),
         float(left @ left),
