@@ -21,7 +21,6 @@ NARROW, WIDE = "2mm-5", "2mm-5-wide"
 SHORT = (0.95, 0.8)
 FRICTION = 0.15  # of all rows whose name says no other
 PACKING = 0.6  # of the flowing bed, in Beverloo's rate
-GRAVITY = 9.81
 # %. The constants of Beverloo's law differ between measurements by that much (C = 0.55 to 0.65); those of the other law
 # have no stated error. A friction of 0.20 in place of 0.15 lowers a rate by 5 %.
 TOLERANCE = 10
@@ -63,14 +62,29 @@ class Cell:
     stopped: int  # packings that clogged, or ended, before the lower end of the window; they are not in the lists
 
     @property
+    def ratio(self) -> float:
+        return float(np.mean(self.ratios))
+
+    def error(self, deviation: float) -> float:
+        """Standard error of the ratio, from the relative scatter of one packing."""
+        return float(deviation * self.ratio / np.sqrt(len(self.ratios)))
+
+    @property
     def name(self) -> str:
-        friction = "" if self.friction == FRICTION else f", friction {self.friction:g}"
-        return f"{self.medium}, d {1e3 * self.diameter:g} mm, D/d {self.hole:g}{friction}"
+        return f"{self.medium}, d {1e3 * self.diameter:g} mm, D/d {self.hole:g}{self.other_friction}"
+
+    @property
+    def other_friction(self) -> str:
+        return "" if self.friction == FRICTION else f", friction {self.friction:g}"
 
     @property
     def line(self) -> tuple[str, float, float]:
         """What is the same for all holes to which one law is fitted."""
         return self.medium, self.diameter, self.friction
+
+
+def lines(grid: list[Cell]) -> list[list[Cell]]:
+    return [[cell for cell in grid if cell.line == line] for line in sorted({cell.line for cell in grid})]
 
 
 def law(medium: str, parameters: dict[str, Any]) -> float:
@@ -179,8 +193,9 @@ def fit(line: list[Cell], deviation: float) -> LawOfOne:
     medium = line[0].medium
     exponent = EXPONENT[medium]
     holes = np.array([cell.hole for cell in line])
-    values = np.array([np.mean(cell.ratios) for cell in line]) ** (1 / exponent) * (holes - CUT_OFF[medium])
-    errors = values * deviation / exponent / np.sqrt([len(cell.ratios) for cell in line])
+    ratios = np.array([cell.ratio for cell in line])
+    values = ratios ** (1 / exponent) * (holes - CUT_OFF[medium])
+    errors = values / exponent * np.array([cell.error(deviation) for cell in line]) / ratios
     (slope, offset), covariance = np.polyfit(holes, values, 1, w=1 / errors, cov="unscaled")
     gradient = np.array([offset / slope**2, -1 / slope])
     left = (values - slope * holes - offset) / errors
@@ -200,15 +215,14 @@ def report(grid: list[Cell], deviation: float) -> None:
         "  medium     d [mm]   D/d  friction     Re   packings  stopped  simulated over measured   later over earlier"
     )
     for cell in grid:
-        error = deviation * np.mean(cell.ratios) / np.sqrt(len(cell.ratios))
         print(
             f"  {cell.medium:10}{1e3 * cell.diameter:6g}{cell.hole:7g}{cell.friction:8g}{cell.reynolds:8.0f}"
             f"{len(cell.ratios):8}{cell.stopped:9}"
-            f"{np.mean(cell.ratios):15.3f} +- {error:.3f}{np.mean(cell.rises):18.3f}"
+            f"{cell.ratio:15.3f} +- {cell.error(deviation):.3f}{np.mean(cell.rises):18.3f}"
         )
-    for medium, diameter, friction in sorted({cell.line for cell in grid}):
-        line = [cell for cell in grid if cell.line == (medium, diameter, friction)]
+    for line in lines(grid):
         if len(line) > 1:
+            medium, diameter, friction = line[0].line
             its = fit(line, deviation)
             print(
                 f"  {medium}, {1e3 * diameter:g} mm, friction {friction:g}: "
@@ -223,16 +237,13 @@ def report_starts(runs: list[Any]) -> None:
     print("  simulated over measured rate under water, d 0.5 mm, D/d 5, while the time in s passes")
     print("  hopper      " + "".join(f"{begin:g} to {end:g}".rjust(12) for begin, end in STAGES))
     for run in runs:
-        ratios = [
-            mean_rate_between(run, *stage) / law("submerged", run.parameters) if run.time[-1] >= stage[1] else None
-            for stage in STAGES
-        ]
-        print(f"  {run.case:12}" + "".join((f"{ratio:.2f}" if ratio else "").rjust(12) for ratio in ratios))
-
-
-def mean_rate_between(run: Any, begin: float, end: float) -> float:
-    first, last = np.searchsorted(run.time, [begin - 1e-9, end - 1e-9])
-    return (run.mass[first] - run.mass[last]) / (run.time[last] - run.time[first])
+        measured = law("submerged", run.parameters)
+        print(f"  {run.case:12}", end="")
+        for begin, end in STAGES:
+            if end <= run.time[-1]:
+                before, after = np.interp([begin, end], run.time, run.mass)
+                print(f"{(before - after) / (end - begin) / measured:12.2f}", end="")
+        print()
 
 
 def rows_of(grid: list[Cell], deviation: float) -> list[Any]:
@@ -243,8 +254,8 @@ def rows_of(grid: list[Cell], deviation: float) -> list[Any]:
             1,
             SOURCES[cell.medium],
             "measured",
-            float(np.mean(cell.ratios)),
-            float(deviation * np.mean(cell.ratios) / np.sqrt(len(cell.ratios))),
+            cell.ratio,
+            cell.error(deviation),
             TOLERANCE,
             finding_of(cell),
             0,  # the committed runs give the same row each time; other runs are news
@@ -295,15 +306,15 @@ def short_rows() -> list[Any]:
 
 def plot(grid: list[Cell], deviation: float) -> None:
     figure, axes = pyplot.subplots(figsize=(6, 4), constrained_layout=True)
-    for medium, diameter, friction in sorted({cell.line for cell in grid}):
-        line = [cell for cell in grid if cell.line == (medium, diameter, friction)]
+    for line in lines(grid):
+        first = line[0]
         axes.errorbar(
             [cell.hole for cell in line],
-            [np.mean(cell.ratios) for cell in line],
-            [deviation / np.sqrt(len(cell.ratios)) for cell in line],
-            fmt="o--" if medium == "dry" else "s-",
+            [cell.ratio for cell in line],
+            [cell.error(deviation) for cell in line],
+            fmt="o--" if first.medium == "dry" else "s-",
             capsize=3,
-            label=f"{medium}, {1e3 * diameter:g} mm" + ("" if friction == FRICTION else f", friction {friction:g}"),
+            label=f"{first.medium}, {1e3 * first.diameter:g} mm{first.other_friction}",
         )
     axes.axhline(1, color="0.5", lw=0.8)
     axes.set(xlabel="hole over particle diameter", ylabel="simulated over measured rate")
